@@ -1,0 +1,122 @@
+#include <varifold/base/parallel.h>
+#include <varifold/simplify/classify.h>
+
+#include <algorithm>
+
+namespace varifold {
+
+namespace {
+
+// A step moves all wedges of a point and removes all faces of an edge; records count them in bytes.
+constexpr std::size_t kMaxWedges = 255;
+constexpr std::size_t kMaxIrregularRing = 1024;
+
+bool differ_across(const WedgeTables& wedge, std::uint32_t face_a, std::uint32_t face_b,
+                   std::uint32_t point, std::uint32_t neighbor) {
+  if (!wedge.material_of.empty() && wedge.material_of[face_a] != wedge.material_of[face_b])
+    return true;
+  for (const std::uint32_t end : {point, neighbor})
+    if (wedge.group_of[corner_wedge(wedge, face_a, end)] !=
+        wedge.group_of[corner_wedge(wedge, face_b, end)])
+      return true;
+  return false;
+}
+
+struct FeatureEdges {
+  int count = 0;
+  EdgeUse first, second;
+
+  void add(const EdgeUse& use) {
+    if (count == 0) first = use;
+    if (count == 1) second = use;
+    ++count;
+  }
+};
+
+FeatureEdges find_features(WorkingSurface& surface, std::uint32_t point) {
+  FeatureEdges features;
+  const auto ring = surface.ring_span(point);
+  std::vector<std::uint32_t> seen;
+  for (const RingEntry& entry : ring) {
+    if (std::find(seen.begin(), seen.end(), entry.neighbor) != seen.end()) continue;
+    seen.push_back(entry.neighbor);
+    const EdgeUse use = edge_use(surface, point, entry.neighbor);
+    if (use.is_feature()) features.add(use);
+  }
+  return features;
+}
+
+// Each fan must lead from the one feature neighbour to the other: then the sheets form a book, and
+// the point may slide along its spine.
+bool is_book(WorkingSurface& surface, std::uint32_t point) {
+  const auto ring = surface.ring_span(point);
+  std::uint32_t ends[2] = {kNone, kNone};
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    if (ring[i].face != kNone) continue;
+    const std::uint32_t last = ring[i].neighbor;
+    std::size_t first_at = i;
+    do first_at = first_at == 0 ? ring.size() - 1 : first_at - 1;
+    while (ring[first_at].face != kNone && first_at != i);
+    const std::uint32_t first = ring[(first_at + 1) % ring.size()].neighbor;
+    if (first == last) return false;
+    if (ends[0] == kNone) ends[0] = first, ends[1] = last;
+    if (std::minmax(first, last) != std::minmax(ends[0], ends[1])) return false;
+  }
+  return true;
+}
+
+VertexKind kind_of(WorkingSurface& surface, std::uint32_t point) {
+  const auto ring = surface.ring_span(point);
+  const WedgeTables& wedge = surface.wedge;
+  if (ring.empty()) return VertexKind::kLocked;
+  if (!wedge.corners.empty() && wedge.of_point(point).size() > kMaxWedges)
+    return VertexKind::kLocked;
+
+  std::size_t gaps = 0;
+  for (const RingEntry& entry : ring) gaps += entry.face == kNone;
+  if (gaps == 0 && wedge.corners.empty()) return VertexKind::kManifold;
+  if (gaps > 1) surface.points[point].flags |= PointState::kIrregular;
+  if (gaps > 1 && ring.size() > kMaxIrregularRing) return VertexKind::kLocked;
+  if (gaps == 1 && wedge.corners.empty() && ring.size() > kMaxIrregularRing)
+    return VertexKind::kCorner;
+
+  const FeatureEdges features = find_features(surface, point);
+  if (features.count == 0) return gaps == 0 ? VertexKind::kManifold : VertexKind::kLocked;
+  const bool alike = features.count == 2 && features.first.faces() == features.second.faces() &&
+                     features.first.seam == features.second.seam;
+  if (!alike) return gaps <= 1 ? VertexKind::kCorner : VertexKind::kLocked;
+  if (gaps == 0) return VertexKind::kSeam;
+  if (!is_book(surface, point) || features.first.faces() != gaps) return VertexKind::kLocked;
+  return gaps == 1 ? VertexKind::kBorder : VertexKind::kNonManifold;
+}
+
+}  // namespace
+
+EdgeUse edge_use(WorkingSurface& surface, std::uint32_t point, std::uint32_t neighbor) {
+  EdgeUse use;
+  const auto ring = surface.ring_span(point);
+  std::uint32_t leaving_face = kNone, arriving_face = kNone;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    if (ring[i].face == kNone) continue;
+    if (ring[i].neighbor == neighbor) {
+      ++use.leaving;
+      leaving_face = ring[i].face;
+    }
+    if (ring[i + 1 == ring.size() ? 0 : i + 1].neighbor == neighbor) {
+      ++use.arriving;
+      arriving_face = ring[i].face;
+    }
+  }
+  if (!surface.wedge.corners.empty() && use.leaving == 1 && use.arriving == 1)
+    use.seam = differ_across(surface.wedge, leaving_face, arriving_face, point, neighbor);
+  return use;
+}
+
+void classify_points(WorkingSurface& surface, int threads) {
+  parallel_for(threads, surface.point_count(), 4096, [&](std::size_t begin, std::size_t end) {
+    for (auto p = static_cast<std::uint32_t>(begin); p < end; ++p)
+      surface.points[p].kind = kind_of(surface, p);
+  });
+}
+
+}  // namespace varifold

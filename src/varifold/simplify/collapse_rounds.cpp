@@ -1,0 +1,159 @@
+#include <varifold/base/parallel.h>
+#include <varifold/simplify/collapse_rounds.h>
+
+#include <algorithm>
+
+namespace varifold {
+
+namespace {
+
+constexpr std::uint32_t kDefaultPointsPerCell = 16384;
+constexpr std::uint32_t kMaxCells = 64;
+// Below this many live points a cell, the borders between cells outweigh what they gain.
+constexpr std::uint32_t kMinLivePerCell = 2048;
+
+class Rounds {
+ public:
+  Rounds(WorkingSurface& surface, Collapser& collapser, const RoundOptions& options)
+      : surface_(surface), collapser_(collapser), options_(options) {
+    const std::uint32_t count = surface.point_count();
+    const std::uint32_t cells = cell_count_for(count, options.points_per_cell);
+    cells_.resize(cells);
+    for (std::uint32_t i = 0; i < cells; ++i) {
+      cells_[i].begin = static_cast<std::uint32_t>(std::uint64_t{count} * i / cells);
+      cells_[i].end = static_cast<std::uint32_t>(std::uint64_t{count} * (i + 1) / cells);
+    }
+    live_points_ = count;
+  }
+
+  CollapseLog run() {
+    log_.entries.reserve(surface_.point_count());
+    log_.removed_faces.reserve(surface_.face_count);
+    for_each_cell([&](Cell& cell) { collapser_.queue_all(cell); });
+    const std::uint32_t all_faces = std::max(1u, surface_.face_count);
+    while (surface_.face_count > options_.target_faces && round()) {
+      merge_cells();
+      const float done = 1.0f - static_cast<float>(surface_.face_count) / all_faces;
+      if (!report(options_.progress, "simplifying", done)) {
+        log_.cancelled = true;
+        break;
+      }
+    }
+    return std::move(log_);
+  }
+
+ private:
+  template <class Body>
+  void for_each_cell(const Body& body) {
+    parallel_for(options_.threads, cells_.size(), 1,
+                 [&](std::size_t begin, std::size_t) { body(cells_[begin]); });
+  }
+
+  bool round() {
+    std::uint32_t lowest = BucketQueue::kBucketCount;
+    for (const Cell& cell : cells_) lowest = std::min(lowest, cell.queue.lowest());
+    if (lowest == BucketQueue::kBucketCount) return false;
+    const bool alone = cells_.size() == 1;
+    const std::uint32_t limit = (lowest / BucketQueue::kBucketsPerOctave + 1) *
+                                BucketQueue::kBucketsPerOctave;
+
+    for_each_cell([&](Cell& cell) { collapser_.drain(cell, limit, !alone); });
+    merge_logs(lowest, limit);
+    if (!alone) drain_borders(limit);
+    return true;
+  }
+
+  // Orders the steps of all cells by cost. A cell's own buckets never go down, so each cell keeps
+  // its order; steps of different cells touch nothing in common.
+  void merge_logs(std::uint32_t lowest, std::uint32_t limit) {
+    if (cells_.size() == 1) return append(cells_[0]);
+    std::vector<std::size_t> entry_at(cells_.size(), 0), face_at(cells_.size(), 0);
+    for (std::uint32_t bucket = lowest; bucket < limit; ++bucket) {
+      for (std::size_t i = 0; i < cells_.size(); ++i) {
+        const Cell& cell = cells_[i];
+        std::size_t faces = 0;
+        const std::size_t first = entry_at[i];
+        for (; entry_at[i] < cell.log.size() && cell.log[entry_at[i]].bucket <= bucket;
+             ++entry_at[i])
+          faces += cell.log[entry_at[i]].removed_faces;
+        append_range(cell, first, entry_at[i], face_at[i], faces);
+        face_at[i] += faces;
+      }
+    }
+    for (Cell& cell : cells_) clear_log(cell);
+  }
+
+  void append_range(const Cell& cell, std::size_t first, std::size_t last, std::size_t first_face,
+                    std::size_t faces) {
+    log_.entries.insert(log_.entries.end(), cell.log.begin() + first, cell.log.begin() + last);
+    const auto face = cell.removed_faces.begin() + static_cast<std::ptrdiff_t>(first_face);
+    log_.removed_faces.insert(log_.removed_faces.end(), face,
+                              face + static_cast<std::ptrdiff_t>(faces));
+    live_points_ -= static_cast<std::uint32_t>(last - first);
+    surface_.face_count -= static_cast<std::uint32_t>(faces);
+  }
+
+  static void clear_log(Cell& cell) {
+    cell.log.clear();
+    cell.removed_faces.clear();
+  }
+
+  void append(Cell& cell) {
+    append_range(cell, 0, cell.log.size(), 0, cell.removed_faces.size());
+    clear_log(cell);
+  }
+
+  // What touched other cells: now nobody else is at work.
+  void drain_borders(std::uint32_t limit) {
+    Cell& border = border_;
+    border.begin = 0;
+    border.end = surface_.point_count();
+    border.queue.restart();
+    collapser_.home_cells = &cells_;
+    for (Cell& cell : cells_) {
+      for (const std::uint32_t point : cell.deferred) {
+        surface_.points[point].flags |= PointState::kDirty;
+        border.queue.push(point, 0);
+      }
+      cell.deferred.clear();
+    }
+    collapser_.drain(border, limit, false);
+    collapser_.home_cells = nullptr;
+    append(border);
+  }
+
+  void merge_cells() {
+    while (cells_.size() > 1 && live_points_ / cells_.size() < kMinLivePerCell) {
+      std::vector<Cell> merged((cells_.size() + 1) / 2);
+      for (std::size_t i = 0; i < merged.size(); ++i) {
+        merged[i] = std::move(cells_[2 * i]);
+        if (2 * i + 1 == cells_.size()) continue;
+        merged[i].end = cells_[2 * i + 1].end;
+        merged[i].queue.take(cells_[2 * i + 1].queue);
+      }
+      cells_ = std::move(merged);
+    }
+  }
+
+  WorkingSurface& surface_;
+  Collapser& collapser_;
+  const RoundOptions& options_;
+  std::vector<Cell> cells_;
+  Cell border_;
+  CollapseLog log_;
+  std::uint32_t live_points_ = 0;
+};
+
+}  // namespace
+
+std::uint32_t cell_count_for(std::uint32_t points, std::uint32_t points_per_cell) {
+  if (points_per_cell == 0) points_per_cell = kDefaultPointsPerCell;
+  return std::clamp(points / points_per_cell, 1u, kMaxCells);
+}
+
+CollapseLog run_rounds(WorkingSurface& surface, Collapser& collapser,
+                       const RoundOptions& options) {
+  return Rounds(surface, collapser, options).run();
+}
+
+}  // namespace varifold

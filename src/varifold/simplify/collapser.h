@@ -1,0 +1,87 @@
+// Draining collapses from one cell of the surface: pop, test, collapse, log.
+#pragma once
+
+#include <cstdint>
+#include <varifold/simplify/attribute_field.h>
+#include <varifold/simplify/bucket_queue.h>
+#include <varifold/simplify/legality.h>
+#include <varifold/simplify/working_surface.h>
+#include <vector>
+
+namespace varifold {
+
+/// One collapse as it was done.
+struct CollapseLogEntry {
+  std::uint32_t from, onto;     ///< points
+  float error;                  ///< sqrt(quadric error / area): a root mean square, unit scale
+  std::uint16_t bucket;         ///< the bucket of its cost: the order across cells
+  std::uint16_t removed_faces;  ///< how many entries of the log of faces belong to it
+};
+
+/// A range of points with a queue and a log of its own. During a parallel round only points whose
+/// whole ring lies in [begin, end) are touched; the others wait in `deferred`.
+struct Cell {
+  std::uint32_t begin = 0, end = 0;
+  BucketQueue queue;
+  std::vector<CollapseLogEntry> log;
+  std::vector<std::uint32_t> removed_faces;
+  std::vector<std::uint32_t> deferred;
+  std::uint32_t limit = 0;  ///< the bucket at which the present round ends
+
+  // Scratch of the collapse in hand; kept to save allocations.
+  std::vector<RingEntry> ring;
+  std::vector<LinkEdge> edges, common_edges;
+  std::vector<std::uint32_t> dead_faces, moved_from, moved_onto;
+};
+
+/// What a Collapser works on besides the surface.
+struct CollapserOptions {
+  LegalityOptions legality;
+  float area_exponent = -0.6f;  ///< cost = quadric * area^exponent (pitfalls: 0 and -1 both lose)
+};
+
+class Collapser {
+ public:
+  Collapser(WorkingSurface& surface, AttributeField* attributes, const CollapserOptions& options)
+      : surface_(surface), attributes_(attributes), options_(options) {}
+
+  /// Finds the best collapse of every point in the cell and queues it. Fresh quadrics needed.
+  void queue_all(Cell& cell);
+
+  /// Collapses in order of cost until the next bucket is `limit`. With `confined`, points with a
+  /// neighbour outside the cell go to `deferred` instead.
+  void drain(Cell& cell, std::uint32_t limit, bool confined);
+
+  /// Where `queue` of the cells other than the drained one receive points that become free again:
+  /// the serial pass sets this; null means the drained cell itself.
+  std::vector<Cell>* home_cells = nullptr;
+
+ private:
+  struct Candidate {
+    float cost;
+    std::uint32_t target;
+  };
+  [[nodiscard]] bool leaves_cell(const Cell& cell, std::uint32_t point);
+  [[nodiscard]] Candidate best_candidate(std::uint32_t point);
+  [[nodiscard]] float cost_onto(std::uint32_t point, std::uint32_t onto);
+  [[nodiscard]] Refusal test(Cell& cell, std::uint32_t from, std::uint32_t onto);
+  /// Tries the candidates of a point from the cheapest on. True when one was done.
+  void try_others(Cell& cell, std::uint32_t point);
+  void collapse(Cell& cell, std::uint32_t from, std::uint32_t onto);
+  void merge_regular(Cell& cell, std::uint32_t from, std::uint32_t onto);
+  void merge_irregular(Cell& cell, std::uint32_t from, std::uint32_t onto);
+  [[nodiscard]] bool is_regular_edge(std::uint32_t from, std::uint32_t onto);
+  void rename_neighbor(std::uint32_t point, std::uint32_t from, std::uint32_t onto);
+  void merge_state(Cell& cell, std::uint32_t from, std::uint32_t onto);
+  void touch(Cell& cell, std::uint32_t point, std::uint32_t from);
+  [[nodiscard]] bool match_wedges(Cell& cell, std::uint32_t from, std::uint32_t onto);
+  void move_wedges(Cell& cell, std::uint32_t from);
+  void requeue(Cell& cell, std::uint32_t point, std::uint32_t bucket);
+  [[nodiscard]] std::uint32_t pool_of(std::uint32_t point) const;
+
+  WorkingSurface& surface_;
+  AttributeField* attributes_;
+  CollapserOptions options_;
+};
+
+}  // namespace varifold

@@ -1,0 +1,117 @@
+#include <varifold/simplify/legality.h>
+
+#include <algorithm>
+#include <varifold/simplify/classify.h>
+
+namespace varifold {
+
+namespace {
+
+// Neighbours common to both rings, each once. A 64-bit filter settles most of them without a search.
+std::uint32_t count_common(std::span<const RingEntry> a, std::span<const RingEntry> b) {
+  std::uint64_t filter = 0;
+  for (const RingEntry& entry : a) filter |= std::uint64_t{1} << (entry.neighbor & 63);
+  std::uint32_t common = 0;
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    const std::uint32_t candidate = b[i].neighbor;
+    if (!(filter >> (candidate & 63) & 1)) continue;
+    const auto is_candidate = [&](const RingEntry& e) { return e.neighbor == candidate; };
+    if (std::none_of(a.begin(), a.end(), is_candidate)) continue;
+    if (std::any_of(b.begin(), b.begin() + i, is_candidate)) continue;
+    ++common;
+  }
+  return common;
+}
+
+// The third corners of the faces on the edge must be the only common neighbours, and must keep a
+// neighbourhood of their own.
+Refusal test_topology(WorkingSurface& surface, std::uint32_t from, std::uint32_t onto,
+                      const LegalityOptions& options) {
+  const auto ring = surface.ring_span(from);
+  const auto onto_ring = surface.ring_span(onto);
+  std::uint32_t edge_faces = 0;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    if (ring[i].face == kNone) continue;
+    const std::uint32_t next = ring[i + 1 == ring.size() ? 0 : i + 1].neighbor;
+    if (ring[i].neighbor != onto && next != onto) continue;
+    ++edge_faces;
+    const std::uint32_t apex = ring[i].neighbor == onto ? next : ring[i].neighbor;
+    // A closed ring of three would become two faces back to back.
+    if (surface.points[apex].ring_size <= 3 && surface.points[apex].kind != VertexKind::kBorder &&
+        surface.points[apex].kind != VertexKind::kCorner)
+      return Refusal::kTopology;
+  }
+  if (edge_faces == 0 || count_common(ring, onto_ring) != edge_faces) return Refusal::kTopology;
+
+  const auto valence = static_cast<std::uint32_t>(ring.size() + onto_ring.size()) - 2 - edge_faces;
+  const auto before = static_cast<std::uint32_t>(onto_ring.size());
+  return valence <= std::max(options.max_valence, before) ? Refusal::kLegal : Refusal::kValence;
+}
+
+// The far feature edges of `from`: sliding along one must not lay the other onto a feature.
+Refusal test_features(WorkingSurface& surface, std::uint32_t from, std::uint32_t onto) {
+  const VertexKind kind = surface.points[from].kind;
+  if (kind == VertexKind::kManifold) return Refusal::kLegal;
+  if (kCollapseAlong[static_cast<int>(kind)] == CollapseAlong::kNothing) return Refusal::kFixed;
+  if (!edge_use(surface, from, onto).is_feature()) return Refusal::kFixed;
+  for (const RingEntry& entry : surface.ring_span(from)) {
+    if (entry.neighbor == onto || !edge_use(surface, from, entry.neighbor).is_feature()) continue;
+    const EdgeUse closing = edge_use(surface, onto, entry.neighbor);
+    if (closing.faces() > 0 && closing.is_feature()) return Refusal::kTopology;
+  }
+  return Refusal::kLegal;
+}
+
+float longest_squared(const Vec3& a, const Vec3& b, const Vec3& c) {
+  return std::max({glm::dot(a, a), glm::dot(b, b), glm::dot(c, c)});
+}
+
+// The faces that stay must neither turn too far nor become needles.
+Refusal test_geometry(WorkingSurface& surface, std::uint32_t from, std::uint32_t onto,
+                      const LegalityOptions& options) {
+  const auto ring = surface.ring_span(from);
+  const Vec3 old_apex = surface.points[from].position;
+  const Vec3 new_apex = surface.points[onto].position;
+  const float limit = options.min_normal_cosine * options.min_normal_cosine;
+  const float shape_limit = options.min_shape * options.min_shape;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const std::uint32_t m = ring[i].neighbor;
+    const std::uint32_t n = ring[i + 1 == ring.size() ? 0 : i + 1].neighbor;
+    if (ring[i].face == kNone || m == onto || n == onto) continue;
+    if (surface.points[m].ring_size == 0) return Refusal::kTopology;
+    const Vec3 pm = surface.points[m].position;
+    const Vec3 pn = surface.points[n].position;
+    const Vec3 edge = pn - pm;
+    const Vec3 old_normal = glm::cross(pm - old_apex, edge);
+    const Vec3 new_normal = glm::cross(pm - new_apex, edge);
+    const float old_square = glm::dot(old_normal, old_normal);
+    const float new_square = glm::dot(new_normal, new_normal);
+    const float cosine = glm::dot(old_normal, new_normal);
+    // Products of squared areas can underflow on tiny triangles, so compare ratios by division.
+    if (old_square > 0 &&
+        (cosine <= 0 || (cosine / old_square) * (cosine / new_square) < limit))
+      return Refusal::kNormal;
+    if (new_square == 0 && old_square == 0) continue;  // it had no area and has none
+    const float longest = longest_squared(pm - new_apex, pn - new_apex, edge);
+    const float shape = new_square / (longest * longest);
+    if (shape >= shape_limit) continue;
+    const float old_longest = longest_squared(pm - old_apex, pn - old_apex, edge);
+    if (!(shape >= old_square / (old_longest * old_longest))) return Refusal::kShape;
+  }
+  return Refusal::kLegal;
+}
+
+}  // namespace
+
+Refusal test_collapse(WorkingSurface& surface, std::uint32_t from, std::uint32_t onto,
+                      const LegalityOptions& options) {
+  if (surface.points[onto].ring_size == 0) return Refusal::kTopology;
+  if (const Refusal refusal = test_features(surface, from, onto); refusal != Refusal::kLegal)
+    return refusal;
+  if (const Refusal refusal = test_topology(surface, from, onto, options);
+      refusal != Refusal::kLegal)
+    return refusal;
+  return test_geometry(surface, from, onto, options);
+}
+
+}  // namespace varifold

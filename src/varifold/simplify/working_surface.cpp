@@ -1,0 +1,255 @@
+#include <varifold/base/parallel.h>
+#include <varifold/simplify/working_surface.h>
+
+#include <algorithm>
+#include <cstring>
+#include <varifold/mesh/weld.h>
+#include <varifold/simplify/classify.h>
+#include <varifold/simplify/morton.h>
+
+namespace varifold {
+
+void WorkingSurface::release_ring(std::uint32_t point) {
+  PointState& state = points[point];
+  if (state.ring_size > RingLine::kCapacity) {
+    const RingEntry address = lines[point].entries[0];
+    pools[address.face].release(address.neighbor, state.ring_size);
+  }
+  state.ring_size = 0;
+}
+
+void WorkingSurface::set_ring(std::uint32_t point, std::span<const RingEntry> entries,
+                              std::uint32_t pool) {
+  release_ring(point);
+  RingEntry* destination = lines[point].entries;
+  const auto size = static_cast<std::uint32_t>(entries.size());
+  if (size > RingLine::kCapacity) {
+    const std::uint32_t offset = pools[pool].allocate(size);
+    lines[point].entries[0] = {offset, pool};
+    destination = pools[pool].at(offset);
+  }
+  if (size > 0) std::memcpy(destination, entries.data(), size * sizeof(RingEntry));
+  points[point].ring_size = static_cast<std::uint16_t>(size);
+}
+
+std::size_t WorkingSurface::bytes() const {
+  std::size_t sum = points.capacity() * sizeof(PointState) + lines.capacity() * sizeof(RingLine) +
+                    class_of_point.capacity() * sizeof(std::uint32_t);
+  for (const RingPool& pool : pools) sum += pool.bytes();
+  for (const auto* table : {&wedge.corners, &wedge.point_of, &wedge.group_of, &wedge.first_wedge,
+                            &wedge.wedges, &wedge.material_of})
+    sum += table->capacity() * sizeof(std::uint32_t);
+  return sum;
+}
+
+namespace {
+
+// Points wider than this would overflow the ring size; the fan around them is left alone.
+constexpr std::uint32_t kMaxRing = 60000;
+
+struct Builder {
+  const TriangleMesh& mesh;
+  const SurfaceOptions& options;
+  WorkingSurface surface;
+  InputFaults faults;
+  std::vector<std::uint32_t> point_of_vertex;
+  std::vector<std::uint32_t> face_points;  // three per input triangle
+  std::vector<std::uint32_t> degree;
+  std::uint32_t cell_size = 1;
+
+  [[nodiscard]] bool is_degenerate(std::uint32_t face) const {
+    const std::uint32_t* p = &face_points[3 * std::size_t{face}];
+    return p[0] == p[1] || p[1] == p[2] || p[2] == p[0];
+  }
+
+  void make_points();
+  void make_faces();
+  void fill_rings();
+  void order_rings(std::uint32_t begin, std::uint32_t end);
+  void order_one(std::uint32_t point, std::vector<LinkEdge>& edges, std::vector<RingEntry>& ring);
+  std::uint32_t drop_duplicates(std::uint32_t point, std::vector<LinkEdge>& edges);
+  void make_wedges();
+};
+
+// Number the position classes along a Morton curve and scale them to a unit box.
+void Builder::make_points() {
+  WeldMap weld = weld_exact(mesh.positions);
+  std::vector<Vec3> class_position(weld.class_count);
+  for (std::uint32_t v = mesh.vertex_count(); v-- > 0;)
+    class_position[weld.class_of[v]] = mesh.positions[v];
+
+  std::vector<bool> used(weld.class_count, false);
+  Box box;
+  for (const std::uint32_t v : mesh.indices) {
+    used[weld.class_of[v]] = true;
+    box.add(mesh.positions[v]);
+  }
+  surface.center = box.empty() ? DVec3(0) : 0.5 * (DVec3(box.lower) + DVec3(box.upper));
+  const double diagonal = box.empty() ? 0 : glm::length(DVec3(box.upper) - DVec3(box.lower));
+  surface.scale = diagonal > 0 ? 1 / diagonal : 1;
+
+  std::vector<std::uint32_t> used_classes;
+  used_classes.reserve(weld.class_count);
+  for (std::uint32_t c = 0; c < weld.class_count; ++c)
+    if (used[c]) used_classes.push_back(c);
+  surface.class_of_point = morton_order(class_position, used_classes, box);
+
+  const auto count = static_cast<std::uint32_t>(surface.class_of_point.size());
+  surface.points.resize(count);
+  std::vector<std::uint32_t> point_of_class(weld.class_count, kNone);
+  for (std::uint32_t p = 0; p < count; ++p) {
+    const std::uint32_t c = surface.class_of_point[p];
+    point_of_class[c] = p;
+    surface.points[p].position = Vec3((DVec3(class_position[c]) - surface.center) * surface.scale);
+  }
+  point_of_vertex = std::move(weld.class_of);
+  for (std::uint32_t& p : point_of_vertex) p = point_of_class[p];
+}
+
+void Builder::make_faces() {
+  face_points.resize(mesh.indices.size());
+  degree.assign(surface.point_count(), 0);
+  for (std::size_t i = 0; i < mesh.indices.size(); ++i)
+    face_points[i] = point_of_vertex[mesh.indices[i]];
+  for (std::uint32_t face = 0; face < mesh.triangle_count(); ++face) {
+    if (is_degenerate(face)) {
+      ++faults.degenerate_triangles;
+      continue;
+    }
+    ++surface.face_count;
+    for (int k = 0; k < 3; ++k) ++degree[face_points[3 * std::size_t{face} + k]];
+  }
+}
+
+// Put every face into the rings of its corners, as {next corner, face}, in no order yet.
+void Builder::fill_rings() {
+  const std::uint32_t count = surface.point_count();
+  surface.lines.resize(count);
+  surface.pools.resize(std::max(1u, options.pools));
+  cell_size = (count + options.pools - 1) / std::max(1u, options.pools);
+  for (std::uint32_t p = 0; p < count; ++p) {
+    degree[p] = std::min(degree[p], kMaxRing);
+    if (degree[p] <= RingLine::kCapacity) continue;
+    const std::uint32_t pool = p / cell_size;
+    surface.lines[p].entries[0] = {surface.pools[pool].allocate(degree[p]), pool};
+  }
+  for (std::uint32_t face = 0; face < mesh.triangle_count(); ++face) {
+    if (is_degenerate(face)) continue;
+    const std::uint32_t* p = &face_points[3 * std::size_t{face}];
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t point = p[k];
+      RingEntry* entries = surface.lines[point].entries;
+      if (degree[point] > RingLine::kCapacity)
+        entries = surface.pools[entries[0].face].at(entries[0].neighbor);
+      std::uint16_t& size = surface.points[point].ring_size;
+      if (size < kMaxRing) entries[size++] = {p[k == 2 ? 0 : k + 1], face};
+    }
+  }
+}
+
+// Drop faces that repeat another one corner by corner; `edges` come sorted by nothing.
+std::uint32_t Builder::drop_duplicates(std::uint32_t point, std::vector<LinkEdge>& edges) {
+  std::sort(edges.begin(), edges.end(), [](const LinkEdge& a, const LinkEdge& b) {
+    return std::tie(a.from, a.to, a.face) < std::tie(b.from, b.to, b.face);
+  });
+  std::uint32_t dropped = 0;
+  const auto end = std::unique(edges.begin(), edges.end(), [&](const LinkEdge& a, const LinkEdge& b) {
+    if (a.from != b.from || a.to != b.to) return false;
+    if (point < a.from && point < a.to) ++dropped;  // counted at one corner only
+    return true;
+  });
+  edges.erase(end, edges.end());
+  return dropped;
+}
+
+void Builder::order_one(std::uint32_t point, std::vector<LinkEdge>& edges,
+                        std::vector<RingEntry>& ring) {
+  RingEntry* entries = surface.lines[point].entries;
+  if (degree[point] > RingLine::kCapacity)
+    entries = surface.pools[entries[0].face].at(entries[0].neighbor);
+  const std::uint32_t size = surface.points[point].ring_size;
+  edges.clear();
+  for (std::uint32_t i = 0; i < size; ++i) {
+    const std::uint32_t* p = &face_points[3 * std::size_t{entries[i].face}];
+    const int at = p[0] == point ? 0 : p[1] == point ? 1 : 2;
+    edges.push_back({entries[i].neighbor, p[at == 0 ? 2 : at - 1], entries[i].face});
+  }
+
+  // The common case, one closed ring, in place: swap each successor into its seat.
+  bool closed = size >= 3 && size <= 32;
+  for (std::uint32_t i = 0; closed && i + 1 < size; ++i) {
+    std::uint32_t j = i + 1;
+    while (j < size && edges[j].from != edges[i].to) ++j;
+    closed = j < size;
+    if (closed) std::swap(edges[i + 1], edges[j]);
+  }
+  closed = closed && edges[size - 1].to == edges[0].from;
+  for (std::uint32_t i = 0; closed && i + 1 < size; ++i)
+    for (std::uint32_t j = i + 1; j < size; ++j) closed = closed && edges[i].from != edges[j].from;
+  if (closed) {
+    for (std::uint32_t i = 0; i < size; ++i) entries[i] = {edges[i].from, edges[i].face};
+    return;
+  }
+
+  drop_duplicates(point, edges);
+  order_ring(edges, ring);
+  // set_ring frees by the present size, which is that of the unordered ring.
+  surface.set_ring(point, ring, point / cell_size);
+}
+
+void Builder::order_rings(std::uint32_t begin, std::uint32_t end) {
+  std::vector<LinkEdge> edges;
+  std::vector<RingEntry> ring;
+  for (std::uint32_t p = begin; p < end; ++p) order_one(p, edges, ring);
+}
+
+void Builder::make_wedges() {
+  WedgeTables& wedge = surface.wedge;
+  wedge.corners = mesh.indices;
+  wedge.point_of = point_of_vertex;
+  wedge.first_wedge.assign(surface.point_count() + 1, 0);
+  for (const std::uint32_t p : point_of_vertex)
+    if (p != kNone) ++wedge.first_wedge[p + 1];
+  for (std::size_t p = 1; p < wedge.first_wedge.size(); ++p)
+    wedge.first_wedge[p] += wedge.first_wedge[p - 1];
+  std::vector<std::uint32_t> cursor(wedge.first_wedge.begin(), wedge.first_wedge.end() - 1);
+  wedge.wedges.resize(wedge.first_wedge.back());
+  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v)
+    if (point_of_vertex[v] != kNone) wedge.wedges[cursor[point_of_vertex[v]]++] = v;
+
+  // Wedges of a point with equal texture coordinates are one side of a chart.
+  wedge.group_of.resize(mesh.vertex_count());
+  for (std::uint32_t p = 0; p < surface.point_count(); ++p) {
+    const auto wedges = wedge.of_point(p);
+    for (std::size_t i = 0; i < wedges.size(); ++i) {
+      std::uint32_t group = wedges[i];
+      for (std::size_t j = 0; j < i && group == wedges[i]; ++j)
+        if (!mesh.has_texcoords() || mesh.texcoords[wedges[i]] == mesh.texcoords[wedges[j]])
+          group = wedge.group_of[wedges[j]];
+      wedge.group_of[wedges[i]] = group;
+    }
+  }
+  if (mesh.ranges.size() > 1) wedge.material_of = triangle_materials(mesh);
+}
+
+}  // namespace
+
+WorkingSurface build_surface(const TriangleMesh& mesh, const SurfaceOptions& options,
+                             InputFaults& faults) {
+  Builder builder{mesh, options, {}, {}, {}, {}, {}, 1};
+  builder.make_points();
+  builder.make_faces();
+  builder.fill_rings();
+  const std::uint32_t count = builder.surface.point_count();
+  parallel_for(options.threads, count, std::max(1u, builder.cell_size),
+               [&](std::size_t begin, std::size_t end) {
+                 builder.order_rings(static_cast<std::uint32_t>(begin),
+                                     static_cast<std::uint32_t>(end));
+               });
+  if (options.with_wedges) builder.make_wedges();
+  classify_points(builder.surface, options.threads);
+  faults = builder.faults;
+  return std::move(builder.surface);
+}
+
+}  // namespace varifold

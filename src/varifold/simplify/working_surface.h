@@ -1,0 +1,101 @@
+// The surface while it is simplified: one record and one ring per position class ("point").
+//
+// Points are position classes in Morton order, scaled to a unit box about the mesh's centre, so
+// that neighbours share pages and costs share a range. Wedges (the vertices of the input) exist
+// beside them where the mesh has seams or attributes: corners name wedges, rings name points.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <varifold/base/math.h>
+#include <varifold/mesh/triangle_mesh.h>
+#include <varifold/simplify/quadric.h>
+#include <varifold/simplify/rings.h>
+#include <varifold/simplify/vertex_kind.h>
+#include <vector>
+
+namespace varifold {
+
+/// One cache line of state for each point.
+struct alignas(64) PointState {
+  Vec3 position{0};
+  float weight = 0;  ///< the area that its quadric has gathered
+  Quadric quadric;
+  std::uint32_t target = kNone;  ///< the best collapse found last
+  std::uint16_t ring_size = 0;
+  VertexKind kind = VertexKind::kManifold;
+  std::uint8_t flags = 0;
+
+  static constexpr std::uint8_t kDead = 1;       ///< collapsed
+  static constexpr std::uint8_t kDirty = 2;      ///< `target` must be found anew
+  static constexpr std::uint8_t kBlocked = 4;    ///< no legal collapse; waits for a change nearby
+  static constexpr std::uint8_t kIrregular = 8;  ///< several fans: its ring is edited the slow way
+};
+static_assert(sizeof(PointState) == 64);
+
+/// Room for the ring of most points; longer ones leave {offset, pool} in the first entry.
+struct alignas(64) RingLine {
+  static constexpr std::uint32_t kCapacity = 8;
+  RingEntry entries[kCapacity];
+};
+
+/// Wedges and corners, present where the mesh has seams or where attributes are to be kept.
+struct WedgeTables {
+  std::vector<std::uint32_t> corners;      ///< three wedges per face, updated by collapses
+  std::vector<std::uint32_t> point_of;     ///< per wedge
+  std::vector<std::uint32_t> group_of;     ///< per wedge: the wedge that stands for its chart side
+  std::vector<std::uint32_t> first_wedge;  ///< per point: range in `wedges`; one more at the end
+  std::vector<std::uint32_t> wedges;       ///< wedges sorted by point
+  std::vector<std::uint32_t> material_of;  ///< per face; empty where there is one material
+  [[nodiscard]] std::span<const std::uint32_t> of_point(std::uint32_t point) const {
+    return {wedges.data() + first_wedge[point], first_wedge[point + 1] - first_wedge[point]};
+  }
+};
+
+struct SurfaceOptions {
+  bool with_wedges = false;  ///< make the wedge tables
+  int threads = 0;           ///< 0 = all
+  std::uint32_t pools = 1;   ///< ring pools, one per cell
+};
+
+class WorkingSurface {
+ public:
+  std::vector<PointState> points;
+  std::vector<RingLine> lines;
+  std::vector<RingPool> pools;
+  WedgeTables wedge;
+  std::vector<std::uint32_t> class_of_point;  ///< position class of each point
+  std::uint32_t face_count = 0;               ///< live faces
+  DVec3 center{0};
+  double scale = 1;  ///< points are (position - center) * scale
+
+  [[nodiscard]] std::uint32_t point_count() const {
+    return static_cast<std::uint32_t>(points.size());
+  }
+  [[nodiscard]] RingEntry* ring(std::uint32_t point) {
+    RingLine& line = lines[point];
+    if (points[point].ring_size <= RingLine::kCapacity) return line.entries;
+    return pools[line.entries[0].face].at(line.entries[0].neighbor);
+  }
+  [[nodiscard]] std::span<RingEntry> ring_span(std::uint32_t point) {
+    return {ring(point), points[point].ring_size};
+  }
+  /// Replaces a ring; `entries` must not lie in the storage of rings. Long ones go to `pool`.
+  void set_ring(std::uint32_t point, std::span<const RingEntry> entries, std::uint32_t pool);
+  void release_ring(std::uint32_t point);
+
+  [[nodiscard]] std::size_t bytes() const;
+};
+
+/// What the simplifier had to leave out of the input.
+struct InputFaults {
+  std::uint32_t degenerate_triangles = 0;  ///< two corners at one position
+  std::uint32_t duplicate_triangles = 0;   ///< the same corners in the same order again
+};
+
+/// Builds points, rings, kinds and quadrics-free state. Triangles that are degenerate on position
+/// classes, and exact repetitions, get no face. O(n log n) for the Morton sort, else linear.
+[[nodiscard]] WorkingSurface build_surface(const TriangleMesh& mesh, const SurfaceOptions& options,
+                                           InputFaults& faults);
+
+}  // namespace varifold
