@@ -147,7 +147,7 @@ class Relief {
     const FractalNoise sum = fractal_noise(noise_, direction, fractal_);
     const double base = sum.smooth + 0.05;
     // Under the sea the ground is flatter; inland there are ranges of mountains.
-    if (base < 0) return std::max(-1.0, 0.6 * base);
+    if (base < 0) return std::max(-1.0, 0.3 * base);
     const double inland = std::min(1.0, 3 * base);
     return std::min(1.0, 0.6 * base + 0.45 * inland * std::max(0.0, sum.ridged));
   }

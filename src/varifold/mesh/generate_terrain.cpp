@@ -61,6 +61,7 @@ TriangleMesh terrain(const TerrainOptions& options) {
   const GradientNoise noise(options.seed);
   FractalOptions fractal;
   fractal.frequency = 1.3;
+  fractal.gain = 0.45;
   fractal.octaves = 2;
   // The finest octave still has about three samples to a lattice cell.
   for (double frequency = fractal.frequency * 4; frequency * 6 <= cells; frequency *= 2)

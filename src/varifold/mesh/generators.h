@@ -36,7 +36,7 @@ struct PlanetOptions : GeneratorOptions {
 [[nodiscard]] TriangleMesh planet(const PlanetOptions& options = {});
 
 struct TerrainOptions : GeneratorOptions {
-  float relief = 0.25f;  ///< half the range of heights, as a part of the side
+  float relief = 0.15f;  ///< half the range of heights, as a part of the side
 };
 
 /// A square height field over [-1, 1]^2 with hills and ridges; open; texture coordinates.

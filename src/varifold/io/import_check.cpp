@@ -1,0 +1,92 @@
+#include <varifold/io/import_check.h>
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace varifold {
+namespace {
+
+bool is_finite(const Vec2& v) { return std::isfinite(v.x) && std::isfinite(v.y); }
+bool is_finite(const Vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+/// Zeroes the entries that are not finite and returns their number.
+template <class T>
+std::size_t repair(std::vector<T>& values) {
+  std::size_t repaired = 0;
+  for (T& value : values) {
+    if (is_finite(value)) continue;
+    value = T(0);
+    ++repaired;
+  }
+  return repaired;
+}
+
+Result<void> check_sizes(const TriangleMesh& mesh) {
+  constexpr std::size_t kMost = std::numeric_limits<std::uint32_t>::max() - 1;
+  if (mesh.positions.size() > kMost || mesh.indices.size() > kMost)
+    return fail(ErrorKind::kUnsupported, "more vertices or corners than 32 bits can count");
+  const auto fits = [&](std::size_t size) { return size == 0 || size == mesh.positions.size(); };
+  if (!fits(mesh.normals.size()) || !fits(mesh.texcoords.size()) || !fits(mesh.colors.size()) ||
+      mesh.indices.size() % 3 != 0)
+    return fail(ErrorKind::kInvalidInput, "attributes do not fit the vertices");
+  return {};
+}
+
+Result<void> check_contents(const TriangleMesh& mesh) {
+  if (auto positions = check_positions(mesh); !positions) return positions;
+  for (std::size_t i = 0; i < mesh.indices.size(); ++i)
+    if (mesh.indices[i] >= mesh.positions.size())
+      return fail(ErrorKind::kInvalidInput,
+                  fmt::format("triangle {}: vertex index {} is out of range ({} vertices)", i / 3,
+                              mesh.indices[i], mesh.positions.size()));
+  std::uint64_t covered = 0;
+  for (const MaterialRange& range : mesh.ranges) {
+    if (range.first_triangle != covered || range.material >= mesh.materials.size())
+      return fail(ErrorKind::kInvalidInput, "material ranges do not fit the triangles");
+    covered += range.triangle_count;
+  }
+  if (!mesh.ranges.empty() && covered != mesh.triangle_count())
+    return fail(ErrorKind::kInvalidInput, "material ranges do not cover the triangles");
+  return {};
+}
+
+}  // namespace
+
+Result<void> check_positions(const TriangleMesh& mesh) {
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+    if (!is_finite(mesh.positions[v]))
+      return fail(ErrorKind::kInvalidInput, fmt::format("vertex {}: position is not finite", v));
+  return {};
+}
+
+Result<ImportedMesh> finish_import(ImportedMesh imported) {
+  TriangleMesh& mesh = imported.mesh;
+  if (auto sizes = check_sizes(mesh); !sizes) return tl::unexpected(std::move(sizes.error()));
+  if (auto contents = check_contents(mesh); !contents)
+    return tl::unexpected(std::move(contents.error()));
+  warn_count(imported, repair(mesh.normals), "normals that are not finite were set to zero");
+  warn_count(imported, repair(mesh.texcoords),
+             "texture coordinates that are not finite were set to zero");
+  if (mesh.indices.empty()) imported.warnings.emplace_back("no triangles");
+  return imported;
+}
+
+void warn_count(ImportedMesh& imported, std::size_t count, std::string_view what) {
+  if (count > 0) imported.warnings.push_back(fmt::format("{} {}", count, what));
+}
+
+std::string quoted(std::string_view text) {
+  constexpr std::size_t kLongest = 60;
+  std::string result = "'";
+  for (const char c : text.substr(0, kLongest)) {
+    const auto code = static_cast<unsigned char>(c);
+    result += code < 0x20 || code == 0x7f ? '?' : c;
+  }
+  return result + (text.size() > kLongest ? "...'" : "'");
+}
+
+}  // namespace varifold

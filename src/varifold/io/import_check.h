@@ -1,0 +1,28 @@
+// The last step of every mesh reader: what holds for an ImportedMesh is made to hold here.
+#pragma once
+
+#include <varifold/base/result.h>
+#include <varifold/io/imported_mesh.h>
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace varifold {
+
+/// Checks sizes, indices, ranges and positions, replaces normals and texture coordinates that are
+/// not finite by zero, and warns of these and of a mesh without triangles. O(n).
+/// Errors: kInvalidInput naming the first bad vertex or triangle; kUnsupported where vertices or
+/// corners need more than 32 bits.
+[[nodiscard]] Result<ImportedMesh> finish_import(ImportedMesh imported);
+
+/// Error kInvalidInput naming the first vertex whose position is not finite. O(vertices).
+[[nodiscard]] Result<void> check_positions(const TriangleMesh& mesh);
+
+/// Appends "<count> <what>" to the warnings unless the count is 0; `what` is in the plural.
+void warn_count(ImportedMesh& imported, std::size_t count, std::string_view what);
+
+/// Text of a file as it may stand in a message: one line of at most 60 printable characters, in
+/// quotes.
+[[nodiscard]] std::string quoted(std::string_view text);
+
+}  // namespace varifold

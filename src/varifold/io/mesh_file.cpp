@@ -1,0 +1,104 @@
+#include <varifold/io/mesh_file.h>
+
+#include <varifold/base/bytes.h>
+#include <varifold/io/import_check.h>
+#include <varifold/io/mapped_file.h>
+#include <varifold/io/output_file.h>
+#include <varifold/io/ply.h>
+#include <algorithm>
+#include <cctype>
+
+namespace varifold {
+namespace {
+
+constexpr const char* kKnownFormats = "known are .ply, .obj, .stl, .gltf and .glb";
+
+std::string lower_extension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension;
+}
+
+std::optional<MeshFormat> format_of_extension(const std::filesystem::path& path) {
+  const std::string extension = lower_extension(path);
+  if (extension == ".ply") return MeshFormat::kPly;
+  if (extension == ".obj") return MeshFormat::kObj;
+  if (extension == ".stl") return MeshFormat::kStl;
+  if (extension == ".gltf") return MeshFormat::kGltf;
+  if (extension == ".glb") return MeshFormat::kGlb;
+  return std::nullopt;
+}
+
+/// Size = 84 + 50 n is the surest sign of a binary STL: some of these begin with "solid", too.
+bool is_binary_stl(std::span<const std::byte> file) {
+  constexpr std::size_t kHeader = 84;
+  if (file.size() < kHeader) return false;
+  const std::uint64_t triangles = load<std::uint32_t>(file.data() + 80);
+  return file.size() == kHeader + 50 * triangles;
+}
+
+std::optional<MeshFormat> format_of_content(std::span<const std::byte> file) {
+  const std::string_view text = as_text(file.first(std::min<std::size_t>(file.size(), 4096)));
+  if (text.starts_with("ply\n") || text.starts_with("ply\r")) return MeshFormat::kPly;
+  if (text.starts_with("glTF")) return MeshFormat::kGlb;
+  if (is_binary_stl(file)) return MeshFormat::kStl;
+  std::string_view start = text;
+  if (start.starts_with("\xEF\xBB\xBF")) start.remove_prefix(3);
+  start.remove_prefix(std::min(start.find_first_not_of(" \t\r\n"), start.size()));
+  if (start.starts_with("{")) return MeshFormat::kGltf;
+  if (start.starts_with("solid") &&
+      (text.find("facet") != text.npos || text.find("endsolid") != text.npos))
+    return MeshFormat::kStl;
+  return std::nullopt;
+}
+
+tl::unexpected<Error> unknown_format(std::span<const std::byte> file) {
+  const std::string_view text = as_text(file.first(std::min<std::size_t>(file.size(), 8)));
+  if (file.empty()) return fail(ErrorKind::kInvalidInput, "the file is empty");
+  if (text.starts_with("\x1f\x8b"))
+    return fail(ErrorKind::kUnsupported, "compressed with gzip: unpack it first");
+  return fail(ErrorKind::kUnsupported, std::string("not a mesh format; ") + kKnownFormats);
+}
+
+}  // namespace
+
+std::optional<MeshFormat> mesh_format(std::span<const std::byte> file,
+                                      const std::filesystem::path& path) {
+  if (const auto format = format_of_content(file)) return format;
+  return format_of_extension(path);
+}
+
+Result<ImportedMesh> decode_mesh(std::span<const std::byte> file, MeshFormat format,
+                                 const std::filesystem::path& /*folder*/) {
+  switch (format) {
+    case MeshFormat::kPly:
+      return read_ply(file);
+    default:
+      return fail(ErrorKind::kUnsupported, "not yet");
+  }
+}
+
+Result<ImportedMesh> read_mesh(const std::filesystem::path& path) {
+  const auto file = MappedFile::open(path);
+  if (!file) return tl::unexpected(file.error());
+  const auto format = mesh_format(file->bytes(), path);
+  auto result = format ? decode_mesh(file->bytes(), *format, path.parent_path())
+                       : Result<ImportedMesh>(unknown_format(file->bytes()));
+  if (!result) return fail_in(path.string(), std::move(result.error()));
+  return result;
+}
+
+Result<void> write_mesh(const TriangleMesh& mesh, const std::filesystem::path& path) {
+  const auto format = format_of_extension(path);
+  if (format == MeshFormat::kPly) return write_file(path, write_ply(mesh));
+  return fail(ErrorKind::kFailed,
+              path.string() + ": cannot write this format; known are .ply, .obj and .glb");
+}
+
+std::vector<std::string> unwritten_parts(const TriangleMesh& mesh, MeshFormat format) {
+  std::vector<std::string> parts;
+  if (format == MeshFormat::kPly && !mesh.materials.empty()) parts.emplace_back("materials");
+  return parts;
+}
+
+}  // namespace varifold

@@ -1,0 +1,32 @@
+// PLY, the polygon file format of Stanford (Turk 1994): ASCII and binary of both byte orders.
+#pragma once
+
+#include <varifold/base/result.h>
+#include <varifold/io/imported_mesh.h>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace varifold {
+
+/// Reads a PLY file. From the element "vertex": x y z; nx ny nz; s t, u v or texture_u texture_v;
+/// red green blue with or without alpha (whole numbers of 8 or 16 bits, or floats in [0, 1]). From
+/// "face": the list vertex_indices or vertex_index; polygons are cut into triangles. From
+/// "tristrips": strips with alternating winding, where -1 begins a new one and triangles with equal
+/// corners are dropped. Properties may have any order and type; others are skipped. A comment
+/// "TextureFile name" becomes a material with that image. Vertices keep their order and number.
+///
+/// O(file). Errors: kInvalidInput, "line 12: ..." in the header and in ASCII files, "byte 345: ..."
+/// and the number of the element in binary ones.
+[[nodiscard]] Result<ImportedMesh> read_ply(std::span<const std::byte> file);
+
+struct PlyOptions {
+  bool ascii = false;  ///< text instead of binary little-endian; floats survive exactly in both
+};
+
+/// The mesh as a PLY file with float positions, normals (nx ny nz), texture coordinates (s t) and
+/// uchar colours, where present. PLY knows no materials: of these only one texture file is kept.
+[[nodiscard]] std::vector<std::byte> write_ply(const TriangleMesh& mesh,
+                                               const PlyOptions& options = {});
+
+}  // namespace varifold

@@ -1,0 +1,55 @@
+// Which property of a PLY vertex goes where in a TriangleMesh.
+#pragma once
+
+#include <varifold/base/result.h>
+#include <varifold/io/ply_header.h>
+#include <varifold/mesh/triangle_mesh.h>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace varifold::ply {
+
+/// One property and its place: value `row` goes to floats[row * stride] or, scaled and rounded, to
+/// bytes[row * stride].
+struct Column {
+  std::uint32_t property = 0;
+  float* floats = nullptr;
+  std::uint8_t* bytes = nullptr;
+  std::size_t stride = 0;
+  float scale = 1;  ///< of colours: to 255
+
+  void store(std::size_t row, float value) const {
+    if (floats) {
+      floats[row * stride] = value;
+      return;
+    }
+    const float scaled = value * scale + 0.5f;
+    // A value that is not a number fails both comparisons and becomes 0.
+    bytes[row * stride] = scaled >= 255 ? 255 : scaled > 0 ? static_cast<std::uint8_t>(scaled) : 0;
+  }
+};
+
+/// The columns of a vertex element, bound to the arrays of a mesh, which it sizes: the caller has
+/// checked that the file has bytes for element.count rows.
+/// Errors: kInvalidInput where x, y or z are missing.
+[[nodiscard]] Result<std::vector<Column>> bind_columns(const Element& element, TriangleMesh& mesh);
+
+/// Decodes one column of `rows` binary rows of equal size, beginning with row `first_row`; `first`
+/// points to the property in that row.
+struct RowBlock {
+  const std::byte* first = nullptr;
+  std::size_t row_bytes = 0;
+  std::size_t first_row = 0;
+  std::size_t rows = 0;
+};
+void decode_column(const Column& column, Type type, Encoding encoding, const RowBlock& block);
+
+/// One binary value as a float; and as a whole number (of a float type: 0).
+[[nodiscard]] float load_float(Type type, Encoding encoding, const std::byte* from);
+[[nodiscard]] std::int64_t load_integer(Type type, Encoding encoding, const std::byte* from);
+
+}  // namespace varifold::ply

@@ -1,0 +1,91 @@
+#include <varifold/io/import_check.h>
+#include <varifold/io/ply.h>
+#include <varifold/io/text_writer.h>
+
+namespace varifold {
+namespace {
+
+/// The uri of the one texture file that MeshLab's comment can name; or empty.
+std::string texture_file(const TriangleMesh& mesh) {
+  if (mesh.materials.size() != 1 || !mesh.has_texcoords()) return {};
+  const std::uint32_t image =
+      mesh.materials[0].textures[static_cast<std::size_t>(TextureUse::kBaseColor)];
+  if (image >= mesh.images.size()) return {};
+  const std::string& uri = mesh.images[image].uri;
+  return uri.find_first_of("\r\n") == std::string::npos ? uri : std::string();
+}
+
+void write_header(const TriangleMesh& mesh, bool ascii, TextWriter& out) {
+  out.write("ply\nformat ", ascii ? "ascii" : "binary_little_endian", " 1.0\n");
+  if (const std::string file = texture_file(mesh); !file.empty())
+    out.write("comment TextureFile ", file, '\n');
+  out.write("element vertex ", mesh.positions.size(), '\n');
+  out.write("property float x\nproperty float y\nproperty float z\n");
+  if (mesh.has_normals()) out.write("property float nx\nproperty float ny\nproperty float nz\n");
+  if (mesh.has_texcoords()) out.write("property float s\nproperty float t\n");
+  if (mesh.has_colors())
+    out.write("property uchar red\nproperty uchar green\nproperty uchar blue\n",
+              "property uchar alpha\n");
+  out.write("element face ", mesh.indices.size() / 3, '\n');
+  out.write("property list uchar uint vertex_indices\nend_header\n");
+}
+
+void write_body_ascii(const TriangleMesh& mesh, TextWriter& out) {
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    const Vec3& p = mesh.positions[v];
+    out.write(p.x, ' ', p.y, ' ', p.z);
+    if (mesh.has_normals()) {
+      const Vec3& n = mesh.normals[v];
+      out.write(' ', n.x, ' ', n.y, ' ', n.z);
+    }
+    if (mesh.has_texcoords()) out.write(' ', mesh.texcoords[v].x, ' ', mesh.texcoords[v].y);
+    if (mesh.has_colors())
+      for (int i = 0; i < 4; ++i) out.write(' ', static_cast<int>(mesh.colors[v][i]));
+    out.write('\n');
+  }
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
+    out.write("3 ", mesh.indices[i], ' ', mesh.indices[i + 1], ' ', mesh.indices[i + 2], '\n');
+}
+
+template <class T>
+std::byte* put(std::byte* at, T value) {
+  store_little(at, value);
+  return at + sizeof(T);
+}
+
+void write_body_binary(const TriangleMesh& mesh, std::vector<std::byte>& bytes) {
+  const std::size_t vertex_bytes = 12 + (mesh.has_normals() ? 12 : 0) +
+                                   (mesh.has_texcoords() ? 8 : 0) + (mesh.has_colors() ? 4 : 0);
+  const std::size_t header_bytes = bytes.size();
+  bytes.resize(header_bytes + mesh.positions.size() * vertex_bytes + mesh.indices.size() / 3 * 13);
+  std::byte* at = bytes.data() + header_bytes;
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    for (int i = 0; i < 3; ++i) at = put(at, mesh.positions[v][i]);
+    if (mesh.has_normals())
+      for (int i = 0; i < 3; ++i) at = put(at, mesh.normals[v][i]);
+    if (mesh.has_texcoords())
+      for (int i = 0; i < 2; ++i) at = put(at, mesh.texcoords[v][i]);
+    if (mesh.has_colors())
+      for (int i = 0; i < 4; ++i) at = put(at, mesh.colors[v][i]);
+  }
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    at = put(at, std::uint8_t{3});
+    for (int corner = 0; corner < 3; ++corner) at = put(at, mesh.indices[i + corner]);
+  }
+}
+
+}  // namespace
+
+std::vector<std::byte> write_ply(const TriangleMesh& mesh, const PlyOptions& options) {
+  TextWriter out;
+  write_header(mesh, options.ascii, out);
+  if (options.ascii) {
+    write_body_ascii(mesh, out);
+    return out.take();
+  }
+  std::vector<std::byte> bytes = out.take();
+  write_body_binary(mesh, bytes);
+  return bytes;
+}
+
+}  // namespace varifold
