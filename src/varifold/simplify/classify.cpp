@@ -11,13 +11,14 @@ namespace {
 constexpr std::size_t kMaxWedges = 255;
 constexpr std::size_t kMaxIrregularRing = 1024;
 
-bool differ_across(const WedgeTables& wedge, std::uint32_t face_a, std::uint32_t face_b,
+bool differ_across(const WorkingSurface& surface, std::uint32_t face_a, std::uint32_t face_b,
                    std::uint32_t point, std::uint32_t neighbor) {
+  const WedgeTables& wedge = surface.wedge;
   if (!wedge.material_of.empty() && wedge.material_of[face_a] != wedge.material_of[face_b])
     return true;
   for (const std::uint32_t end : {point, neighbor})
-    if (wedge.group_of[corner_wedge(wedge, face_a, end)] !=
-        wedge.group_of[corner_wedge(wedge, face_b, end)])
+    if (wedge.group_of[corner_wedge(surface, face_a, end)] !=
+        wedge.group_of[corner_wedge(surface, face_b, end)])
       return true;
   return false;
 }
@@ -108,7 +109,7 @@ EdgeUse edge_use(WorkingSurface& surface, std::uint32_t point, std::uint32_t nei
     }
   }
   if (!surface.wedge.corners.empty() && use.leaving == 1 && use.arriving == 1)
-    use.seam = differ_across(surface.wedge, leaving_face, arriving_face, point, neighbor);
+    use.seam = differ_across(surface, leaving_face, arriving_face, point, neighbor);
   return use;
 }
 

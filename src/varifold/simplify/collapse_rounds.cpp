@@ -7,8 +7,6 @@ namespace varifold {
 
 namespace {
 
-constexpr std::uint32_t kDefaultPointsPerCell = 16384;
-constexpr std::uint32_t kMaxCells = 64;
 // Below this many live points a cell, the borders between cells outweigh what they gain.
 constexpr std::uint32_t kMinLivePerCell = 2048;
 
@@ -17,12 +15,14 @@ class Rounds {
   Rounds(WorkingSurface& surface, Collapser& collapser, const RoundOptions& options)
       : surface_(surface), collapser_(collapser), options_(options) {
     const std::uint32_t count = surface.point_count();
-    const std::uint32_t cells = cell_count_for(count, options.points_per_cell);
-    cells_.resize(cells);
-    for (std::uint32_t i = 0; i < cells; ++i) {
-      cells_[i].begin = static_cast<std::uint32_t>(std::uint64_t{count} * i / cells);
-      cells_[i].end = static_cast<std::uint32_t>(std::uint64_t{count} * (i + 1) / cells);
+    // The points of one ring pool are one cell, so that no two cells ever share a pool.
+    const std::uint32_t size = surface.points_per_pool();
+    for (std::uint32_t begin = 0; begin < count; begin += size) {
+      Cell& cell = cells_.emplace_back();
+      cell.begin = begin;
+      cell.end = std::min(count, begin + size);
     }
+    if (cells_.empty()) cells_.emplace_back();
     live_points_ = count;
   }
 
@@ -32,6 +32,7 @@ class Rounds {
     for_each_cell([&](Cell& cell) { collapser_.queue_all(cell); });
     const std::uint32_t all_faces = std::max(1u, surface_.face_count);
     while (surface_.face_count > options_.target_faces && round()) {
+      log_.queue_bytes = std::max(log_.queue_bytes, queue_bytes());
       merge_cells();
       const float done = 1.0f - static_cast<float>(surface_.face_count) / all_faces;
       if (!report(options_.progress, "simplifying", done)) {
@@ -47,6 +48,12 @@ class Rounds {
   void for_each_cell(const Body& body) {
     parallel_for(options_.threads, cells_.size(), 1,
                  [&](std::size_t begin, std::size_t) { body(cells_[begin]); });
+  }
+
+  [[nodiscard]] std::size_t queue_bytes() const {
+    std::size_t sum = border_.queue.bytes();
+    for (const Cell& cell : cells_) sum += cell.queue.bytes();
+    return sum;
   }
 
   bool round() {
@@ -145,11 +152,6 @@ class Rounds {
 };
 
 }  // namespace
-
-std::uint32_t cell_count_for(std::uint32_t points, std::uint32_t points_per_cell) {
-  if (points_per_cell == 0) points_per_cell = kDefaultPointsPerCell;
-  return std::clamp(points / points_per_cell, 1u, kMaxCells);
-}
 
 CollapseLog run_rounds(WorkingSurface& surface, Collapser& collapser,
                        const RoundOptions& options) {

@@ -24,11 +24,6 @@ float rough_power(float x, float exponent) {
 
 }  // namespace
 
-std::uint32_t Collapser::pool_of(std::uint32_t point) const {
-  const auto pools = static_cast<std::uint32_t>(surface_.pools.size());
-  return point / ((surface_.point_count() + pools - 1) / pools);
-}
-
 // Within the round a point stays with the cell that drains it; later it is due in its own cell.
 void Collapser::requeue(Cell& cell, std::uint32_t point, std::uint32_t bucket) {
   if (!home_cells || bucket < cell.limit) return cell.queue.push(point, bucket);
@@ -59,9 +54,9 @@ float Collapser::cost_onto(std::uint32_t point, std::uint32_t onto) {
       for (std::size_t i = 0; i < ring.size(); ++i) {
         const std::uint32_t next = ring[i + 1 == ring.size() ? 0 : i + 1].neighbor;
         if (ring[i].face == kNone || (ring[i].neighbor != onto && next != onto)) continue;
-        const std::uint32_t w = corner_wedge(wedge, ring[i].face, point);
+        const std::uint32_t w = corner_wedge(surface_, ring[i].face, point);
         if (w != previous)
-          error += attributes_->coupling(w, corner_wedge(wedge, ring[i].face, onto), d);
+          error += attributes_->coupling(w, corner_wedge(surface_, ring[i].face, onto), d);
         previous = w;
       }
     }
@@ -83,6 +78,12 @@ Collapser::Candidate Collapser::best_candidate(std::uint32_t point) {
   }
   best.cost *= rough_power(state.weight, options_.area_exponent);
   return best;
+}
+
+Refusal Collapser::refusal_of(Cell& scratch, std::uint32_t point) {
+  const Candidate best = best_candidate(point);
+  if (best.target == kNone) return Refusal::kFixed;
+  return test(scratch, point, best.target);
 }
 
 void Collapser::queue_all(Cell& cell) {
@@ -255,7 +256,7 @@ void Collapser::merge_regular(Cell& cell, std::uint32_t from, std::uint32_t onto
   while (old[old_from].neighbor != from) ++old_from;
   for (std::size_t i = 1; i + 1 < old.size(); ++i)
     merged[count++] = old[(old_from + i) % old.size()];
-  surface_.set_ring(onto, {merged, count}, pool_of(onto));
+  surface_.set_ring(onto, {merged, count});
 
   for (std::size_t i = 2; i + 1 < size; ++i) rename_neighbor(ring_at(i).neighbor, from, onto);
 
@@ -275,12 +276,12 @@ void Collapser::merge_regular(Cell& cell, std::uint32_t from, std::uint32_t onto
         return;
       }
       const std::vector<RingEntry> copy(entries.begin(), entries.end() - 1);
-      surface_.set_ring(point, copy, pool_of(point));
+      surface_.set_ring(point, copy);
       return;
     }
     for (std::size_t k = 0; k < entries.size(); ++k)
       if (k != i) kept[kept_count++] = entries[k];
-    surface_.set_ring(point, {kept, kept_count}, pool_of(point));
+    surface_.set_ring(point, {kept, kept_count});
   };
   drop(a.neighbor, false);
   drop(b.neighbor, true);
@@ -307,7 +308,7 @@ void Collapser::merge_irregular(Cell& cell, std::uint32_t from, std::uint32_t on
 
   std::vector<RingEntry> ordered;
   order_ring(cell.edges, ordered);
-  surface_.set_ring(onto, ordered, pool_of(onto));
+  surface_.set_ring(onto, ordered);
 
   for (const std::uint32_t apex : apexes) {
     cell.common_edges.clear();
@@ -318,7 +319,7 @@ void Collapser::merge_irregular(Cell& cell, std::uint32_t from, std::uint32_t on
       if (edge.to == from) edge.to = onto;
     }
     order_ring(cell.common_edges, ordered);
-    surface_.set_ring(apex, ordered, pool_of(apex));
+    surface_.set_ring(apex, ordered);
   }
   for (const RingEntry& entry : cell.ring)
     if (entry.neighbor != onto) rename_neighbor(entry.neighbor, from, onto);
@@ -349,11 +350,11 @@ bool Collapser::match_wedges(Cell& cell, std::uint32_t from, std::uint32_t onto)
   const auto ring = surface_.ring_span(from);
   for (std::size_t i = 0; i < ring.size(); ++i) {
     if (ring[i].face == kNone) continue;
-    const std::uint32_t group = wedge.group_of[corner_wedge(wedge, ring[i].face, from)];
+    const std::uint32_t group = wedge.group_of[corner_wedge(surface_, ring[i].face, from)];
     groups_in_use.push_back(group);
     const std::uint32_t next = ring[i + 1 == ring.size() ? 0 : i + 1].neighbor;
     if (ring[i].neighbor != onto && next != onto) continue;
-    const std::uint32_t onto_group = wedge.group_of[corner_wedge(wedge, ring[i].face, onto)];
+    const std::uint32_t onto_group = wedge.group_of[corner_wedge(surface_, ring[i].face, onto)];
     for (const Side& side : sides)
       if (side.from_group == group && side.onto_group != onto_group) return false;
     sides.push_back({group, onto_group});
@@ -381,11 +382,13 @@ bool Collapser::match_wedges(Cell& cell, std::uint32_t from, std::uint32_t onto)
 
 void Collapser::move_wedges(Cell& cell, std::uint32_t from) {
   WedgeTables& wedge = surface_.wedge;
+  for (std::size_t i = 0; i < cell.moved_from.size(); ++i)
+    wedge.target[cell.moved_from[i]] = cell.moved_onto[i];
   for (const RingEntry& entry : surface_.ring_span(from)) {
     if (entry.face == kNone) continue;
     std::uint32_t* corner = &wedge.corners[3 * std::size_t{entry.face}];
     for (int k = 0; k < 3; ++k) {
-      if (wedge.point_of[corner[k]] != from) continue;
+      if (surface_.point_of_vertex[corner[k]] != from) continue;
       for (std::size_t i = 0; i < cell.moved_from.size(); ++i)
         if (cell.moved_from[i] == corner[k]) {
           corner[k] = cell.moved_onto[i];

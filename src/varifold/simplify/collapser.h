@@ -52,6 +52,9 @@ class Collapser {
   /// neighbour outside the cell go to `deferred` instead.
   void drain(Cell& cell, std::uint32_t limit, bool confined);
 
+  /// Why the cheapest collapse of a live point is refused; kFixed where its kind allows none.
+  [[nodiscard]] Refusal refusal_of(Cell& scratch, std::uint32_t point);
+
   /// Where `queue` of the cells other than the drained one receive points that become free again:
   /// the serial pass sets this; null means the drained cell itself.
   std::vector<Cell>* home_cells = nullptr;
@@ -77,7 +80,6 @@ class Collapser {
   [[nodiscard]] bool match_wedges(Cell& cell, std::uint32_t from, std::uint32_t onto);
   void move_wedges(Cell& cell, std::uint32_t from);
   void requeue(Cell& cell, std::uint32_t point, std::uint32_t bucket);
-  [[nodiscard]] std::uint32_t pool_of(std::uint32_t point) const;
 
   WorkingSurface& surface_;
   AttributeField* attributes_;

@@ -16,12 +16,11 @@ struct PointError {
   void add_attributes(std::uint32_t point, const RingEntry& entry, std::uint32_t next,
                       float weight) const {
     PointState& state = surface.points[point];
-    const WedgeTables& wedge = surface.wedge;
     const Vec3 edge_1 = surface.points[entry.neighbor].position - state.position;
     const Vec3 edge_2 = surface.points[next].position - state.position;
     state.quadric += attributes->add_face(
-        {corner_wedge(wedge, entry.face, point), corner_wedge(wedge, entry.face, entry.neighbor),
-         corner_wedge(wedge, entry.face, next)},
+        {corner_wedge(surface, entry.face, point), corner_wedge(surface, entry.face, entry.neighbor),
+         corner_wedge(surface, entry.face, next)},
         edge_1, edge_2, weight);
   }
 

@@ -2,7 +2,9 @@
 #include <varifold/simplify/working_surface.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstring>
+#include <tuple>
 #include <varifold/mesh/weld.h>
 #include <varifold/simplify/classify.h>
 #include <varifold/simplify/morton.h>
@@ -18,12 +20,12 @@ void WorkingSurface::release_ring(std::uint32_t point) {
   state.ring_size = 0;
 }
 
-void WorkingSurface::set_ring(std::uint32_t point, std::span<const RingEntry> entries,
-                              std::uint32_t pool) {
+void WorkingSurface::set_ring(std::uint32_t point, std::span<const RingEntry> entries) {
   release_ring(point);
   RingEntry* destination = lines[point].entries;
   const auto size = static_cast<std::uint32_t>(entries.size());
   if (size > RingLine::kCapacity) {
+    const std::uint32_t pool = pool_of(point);
     const std::uint32_t offset = pools[pool].allocate(size);
     lines[point].entries[0] = {offset, pool};
     destination = pools[pool].at(offset);
@@ -32,12 +34,20 @@ void WorkingSurface::set_ring(std::uint32_t point, std::span<const RingEntry> en
   points[point].ring_size = static_cast<std::uint16_t>(size);
 }
 
+std::uint32_t WorkingSurface::live_points() const {
+  return static_cast<std::uint32_t>(std::count_if(points.begin(), points.end(), [](const auto& p) {
+    return !(p.flags & PointState::kDead);
+  }));
+}
+
 std::size_t WorkingSurface::bytes() const {
   std::size_t sum = points.capacity() * sizeof(PointState) + lines.capacity() * sizeof(RingLine) +
-                    class_of_point.capacity() * sizeof(std::uint32_t);
+                    (point_of_vertex.capacity() + first_vertex_of_point.capacity()) *
+                        sizeof(std::uint32_t) +
+                    is_face.capacity() / 8;
   for (const RingPool& pool : pools) sum += pool.bytes();
-  for (const auto* table : {&wedge.corners, &wedge.point_of, &wedge.group_of, &wedge.first_wedge,
-                            &wedge.wedges, &wedge.material_of})
+  for (const auto* table : {&wedge.corners, &wedge.group_of, &wedge.first_wedge, &wedge.wedges,
+                            &wedge.material_of, &wedge.same_as, &wedge.target})
     sum += table->capacity() * sizeof(std::uint32_t);
   return sum;
 }
@@ -46,16 +56,16 @@ namespace {
 
 // Points wider than this would overflow the ring size; the fan around them is left alone.
 constexpr std::uint32_t kMaxRing = 60000;
+constexpr std::uint32_t kMaxCells = 64;
 
 struct Builder {
   const TriangleMesh& mesh;
   const SurfaceOptions& options;
   WorkingSurface surface;
   InputFaults faults;
-  std::vector<std::uint32_t> point_of_vertex;
   std::vector<std::uint32_t> face_points;  // three per input triangle
   std::vector<std::uint32_t> degree;
-  std::uint32_t cell_size = 1;
+  std::atomic<bool> any_dropped{false};
 
   [[nodiscard]] bool is_degenerate(std::uint32_t face) const {
     const std::uint32_t* p = &face_points[3 * std::size_t{face}];
@@ -67,22 +77,27 @@ struct Builder {
   void fill_rings();
   void order_rings(std::uint32_t begin, std::uint32_t end);
   void order_one(std::uint32_t point, std::vector<LinkEdge>& edges, std::vector<RingEntry>& ring);
-  std::uint32_t drop_duplicates(std::uint32_t point, std::vector<LinkEdge>& edges);
+  static void drop_duplicates(std::vector<LinkEdge>& edges);
+  void count_faces();
+  void merge_equal_wedges();
+  void list_wedges(const std::vector<bool>& used);
   void make_wedges();
 };
 
 // Number the position classes along a Morton curve and scale them to a unit box.
 void Builder::make_points() {
   WeldMap weld = weld_exact(mesh.positions);
+  std::vector<std::uint32_t> first_vertex(weld.class_count, kNone);
   std::vector<Vec3> class_position(weld.class_count);
-  for (std::uint32_t v = mesh.vertex_count(); v-- > 0;)
-    class_position[weld.class_of[v]] = mesh.positions[v];
-
-  std::vector<bool> used(weld.class_count, false);
   Box box;
+  std::vector<bool> used(weld.class_count, false);
   for (const std::uint32_t v : mesh.indices) {
     used[weld.class_of[v]] = true;
     box.add(mesh.positions[v]);
+  }
+  for (std::uint32_t v = mesh.vertex_count(); v-- > 0;) {
+    first_vertex[weld.class_of[v]] = v;
+    class_position[weld.class_of[v]] = mesh.positions[v];
   }
   surface.center = box.empty() ? DVec3(0) : 0.5 * (DVec3(box.lower) + DVec3(box.upper));
   const double diagonal = box.empty() ? 0 : glm::length(DVec3(box.upper) - DVec3(box.lower));
@@ -92,31 +107,36 @@ void Builder::make_points() {
   used_classes.reserve(weld.class_count);
   for (std::uint32_t c = 0; c < weld.class_count; ++c)
     if (used[c]) used_classes.push_back(c);
-  surface.class_of_point = morton_order(class_position, used_classes, box);
+  const std::vector<std::uint32_t> order = morton_order(class_position, used_classes, box);
 
-  const auto count = static_cast<std::uint32_t>(surface.class_of_point.size());
+  const auto count = static_cast<std::uint32_t>(order.size());
   surface.points.resize(count);
-  std::vector<std::uint32_t> point_of_class(weld.class_count, kNone);
+  surface.first_vertex_of_point.resize(count);
+  std::vector<std::uint32_t>& point_of_class = used_classes;
+  point_of_class.assign(weld.class_count, kNone);
   for (std::uint32_t p = 0; p < count; ++p) {
-    const std::uint32_t c = surface.class_of_point[p];
-    point_of_class[c] = p;
-    surface.points[p].position = Vec3((DVec3(class_position[c]) - surface.center) * surface.scale);
+    point_of_class[order[p]] = p;
+    surface.first_vertex_of_point[p] = first_vertex[order[p]];
+    surface.points[p].position =
+        Vec3((DVec3(class_position[order[p]]) - surface.center) * surface.scale);
   }
-  point_of_vertex = std::move(weld.class_of);
-  for (std::uint32_t& p : point_of_vertex) p = point_of_class[p];
+  surface.point_of_vertex = std::move(weld.class_of);
+  for (std::uint32_t& p : surface.point_of_vertex) p = point_of_class[p];
 }
 
 void Builder::make_faces() {
   face_points.resize(mesh.indices.size());
   degree.assign(surface.point_count(), 0);
   for (std::size_t i = 0; i < mesh.indices.size(); ++i)
-    face_points[i] = point_of_vertex[mesh.indices[i]];
+    face_points[i] = surface.point_of_vertex[mesh.indices[i]];
+  surface.is_face.assign(mesh.triangle_count(), false);
   for (std::uint32_t face = 0; face < mesh.triangle_count(); ++face) {
     if (is_degenerate(face)) {
       ++faults.degenerate_triangles;
       continue;
     }
     ++surface.face_count;
+    surface.is_face[face] = true;
     for (int k = 0; k < 3; ++k) ++degree[face_points[3 * std::size_t{face} + k]];
   }
 }
@@ -125,12 +145,11 @@ void Builder::make_faces() {
 void Builder::fill_rings() {
   const std::uint32_t count = surface.point_count();
   surface.lines.resize(count);
-  surface.pools.resize(std::max(1u, options.pools));
-  cell_size = (count + options.pools - 1) / std::max(1u, options.pools);
+  surface.pools.resize(std::clamp(count / std::max(1u, options.points_per_cell), 1u, kMaxCells));
   for (std::uint32_t p = 0; p < count; ++p) {
-    degree[p] = std::min(degree[p], kMaxRing);
+    if (degree[p] > kMaxRing) degree[p] = 0;  // no ring: nothing around it can be changed
     if (degree[p] <= RingLine::kCapacity) continue;
-    const std::uint32_t pool = p / cell_size;
+    const std::uint32_t pool = surface.pool_of(p);
     surface.lines[p].entries[0] = {surface.pools[pool].allocate(degree[p]), pool};
   }
   for (std::uint32_t face = 0; face < mesh.triangle_count(); ++face) {
@@ -138,28 +157,39 @@ void Builder::fill_rings() {
     const std::uint32_t* p = &face_points[3 * std::size_t{face}];
     for (int k = 0; k < 3; ++k) {
       const std::uint32_t point = p[k];
+      if (degree[point] == 0) continue;
       RingEntry* entries = surface.lines[point].entries;
       if (degree[point] > RingLine::kCapacity)
         entries = surface.pools[entries[0].face].at(entries[0].neighbor);
-      std::uint16_t& size = surface.points[point].ring_size;
-      if (size < kMaxRing) entries[size++] = {p[k == 2 ? 0 : k + 1], face};
+      entries[surface.points[point].ring_size++] = {p[k == 2 ? 0 : k + 1], face};
     }
   }
 }
 
-// Drop faces that repeat another one corner by corner; `edges` come sorted by nothing.
-std::uint32_t Builder::drop_duplicates(std::uint32_t point, std::vector<LinkEdge>& edges) {
+// Drop link edges that repeat another one: their faces have the same corners in the same order.
+// Every corner of such a face drops the same one, the later.
+void Builder::drop_duplicates(std::vector<LinkEdge>& edges) {
   std::sort(edges.begin(), edges.end(), [](const LinkEdge& a, const LinkEdge& b) {
     return std::tie(a.from, a.to, a.face) < std::tie(b.from, b.to, b.face);
   });
-  std::uint32_t dropped = 0;
-  const auto end = std::unique(edges.begin(), edges.end(), [&](const LinkEdge& a, const LinkEdge& b) {
-    if (a.from != b.from || a.to != b.to) return false;
-    if (point < a.from && point < a.to) ++dropped;  // counted at one corner only
-    return true;
-  });
-  edges.erase(end, edges.end());
-  return dropped;
+  const auto same = [](const LinkEdge& a, const LinkEdge& b) {
+    return a.from == b.from && a.to == b.to;
+  };
+  edges.erase(std::unique(edges.begin(), edges.end(), same), edges.end());
+}
+
+// A face that no ring mentions any more was a repetition.
+void Builder::count_faces() {
+  std::vector<bool> mentioned(mesh.triangle_count(), false);
+  for (std::uint32_t p = 0; p < surface.point_count(); ++p)
+    for (const RingEntry& entry : surface.ring_span(p))
+      if (entry.face != kNone) mentioned[entry.face] = true;
+  for (std::uint32_t face = 0; face < mesh.triangle_count(); ++face) {
+    if (!surface.is_face[face] || mentioned[face]) continue;
+    surface.is_face[face] = false;
+    ++faults.duplicate_triangles;
+    --surface.face_count;
+  }
 }
 
 void Builder::order_one(std::uint32_t point, std::vector<LinkEdge>& edges,
@@ -191,10 +221,11 @@ void Builder::order_one(std::uint32_t point, std::vector<LinkEdge>& edges,
     return;
   }
 
-  drop_duplicates(point, edges);
+  drop_duplicates(edges);
+  if (edges.size() != size) any_dropped = true;
   order_ring(edges, ring);
   // set_ring frees by the present size, which is that of the unordered ring.
-  surface.set_ring(point, ring, point / cell_size);
+  surface.set_ring(point, ring);
 }
 
 void Builder::order_rings(std::uint32_t begin, std::uint32_t end) {
@@ -203,19 +234,58 @@ void Builder::order_rings(std::uint32_t begin, std::uint32_t end) {
   for (std::uint32_t p = begin; p < end; ++p) order_one(p, edges, ring);
 }
 
-void Builder::make_wedges() {
+// One wedge for each set of equal attributes at a point; corners name those.
+void Builder::merge_equal_wedges() {
   WedgeTables& wedge = surface.wedge;
-  wedge.corners = mesh.indices;
-  wedge.point_of = point_of_vertex;
+  const auto equal = [&](std::uint32_t a, std::uint32_t b) {
+    return (!mesh.has_normals() || mesh.normals[a] == mesh.normals[b]) &&
+           (!mesh.has_texcoords() || mesh.texcoords[a] == mesh.texcoords[b]) &&
+           (!mesh.has_colors() || mesh.colors[a] == mesh.colors[b]);
+  };
+  wedge.same_as.resize(mesh.vertex_count());
+  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) wedge.same_as[v] = v;
+  for (std::uint32_t p = 0; p < surface.point_count(); ++p) {
+    const auto wedges = wedge.of_point(p);
+    // Thousands of vertices at one place are locked anyhow (classify.cpp).
+    const std::size_t count = std::min<std::size_t>(wedges.size(), 1024);
+    for (std::size_t i = 1; i < count; ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        if (wedge.same_as[wedges[j]] == wedges[j] && equal(wedges[i], wedges[j])) {
+          wedge.same_as[wedges[i]] = wedges[j];
+          break;
+        }
+  }
+  for (std::uint32_t& corner : wedge.corners) corner = wedge.same_as[corner];
+}
+
+// Sort the vertices that corners use by point.
+void Builder::list_wedges(const std::vector<bool>& used) {
+  WedgeTables& wedge = surface.wedge;
   wedge.first_wedge.assign(surface.point_count() + 1, 0);
-  for (const std::uint32_t p : point_of_vertex)
-    if (p != kNone) ++wedge.first_wedge[p + 1];
+  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v)
+    if (used[v]) ++wedge.first_wedge[surface.point_of_vertex[v] + 1];
   for (std::size_t p = 1; p < wedge.first_wedge.size(); ++p)
     wedge.first_wedge[p] += wedge.first_wedge[p - 1];
   std::vector<std::uint32_t> cursor(wedge.first_wedge.begin(), wedge.first_wedge.end() - 1);
   wedge.wedges.resize(wedge.first_wedge.back());
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v)
-    if (point_of_vertex[v] != kNone) wedge.wedges[cursor[point_of_vertex[v]]++] = v;
+    if (used[v]) wedge.wedges[cursor[surface.point_of_vertex[v]]++] = v;
+}
+
+void Builder::make_wedges() {
+  WedgeTables& wedge = surface.wedge;
+  wedge.corners = mesh.indices;
+  const auto mark_used = [&] {
+    std::vector<bool> used(mesh.vertex_count(), false);
+    for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t)
+      for (std::size_t k = 0; k < 3; ++k)
+        if (surface.is_face[t]) used[wedge.corners[3 * std::size_t{t} + k]] = true;
+    return used;
+  };
+  list_wedges(mark_used());
+  merge_equal_wedges();
+  list_wedges(mark_used());
+  wedge.target.assign(mesh.vertex_count(), kNone);
 
   // Wedges of a point with equal texture coordinates are one side of a chart.
   wedge.group_of.resize(mesh.vertex_count());
@@ -223,7 +293,7 @@ void Builder::make_wedges() {
     const auto wedges = wedge.of_point(p);
     for (std::size_t i = 0; i < wedges.size(); ++i) {
       std::uint32_t group = wedges[i];
-      for (std::size_t j = 0; j < i && group == wedges[i]; ++j)
+      for (std::size_t j = 0; j < std::min<std::size_t>(i, 1024) && group == wedges[i]; ++j)
         if (!mesh.has_texcoords() || mesh.texcoords[wedges[i]] == mesh.texcoords[wedges[j]])
           group = wedge.group_of[wedges[j]];
       wedge.group_of[wedges[i]] = group;
@@ -236,16 +306,17 @@ void Builder::make_wedges() {
 
 WorkingSurface build_surface(const TriangleMesh& mesh, const SurfaceOptions& options,
                              InputFaults& faults) {
-  Builder builder{mesh, options, {}, {}, {}, {}, {}, 1};
+  Builder builder{mesh, options, {}, {}, {}, {}};
   builder.make_points();
   builder.make_faces();
   builder.fill_rings();
   const std::uint32_t count = builder.surface.point_count();
-  parallel_for(options.threads, count, std::max(1u, builder.cell_size),
+  parallel_for(options.threads, count, builder.surface.points_per_pool(),
                [&](std::size_t begin, std::size_t end) {
                  builder.order_rings(static_cast<std::uint32_t>(begin),
                                      static_cast<std::uint32_t>(end));
                });
+  if (builder.any_dropped) builder.count_faces();
   if (options.with_wedges) builder.make_wedges();
   classify_points(builder.surface, options.threads);
   faults = builder.faults;

@@ -5,6 +5,7 @@
 // beside them where the mesh has seams or attributes: corners name wedges, rings name points.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <varifold/base/math.h>
@@ -42,11 +43,12 @@ struct alignas(64) RingLine {
 /// Wedges and corners, present where the mesh has seams or where attributes are to be kept.
 struct WedgeTables {
   std::vector<std::uint32_t> corners;      ///< three wedges per face, updated by collapses
-  std::vector<std::uint32_t> point_of;     ///< per wedge
   std::vector<std::uint32_t> group_of;     ///< per wedge: the wedge that stands for its chart side
   std::vector<std::uint32_t> first_wedge;  ///< per point: range in `wedges`; one more at the end
   std::vector<std::uint32_t> wedges;       ///< wedges sorted by point
   std::vector<std::uint32_t> material_of;  ///< per face; empty where there is one material
+  std::vector<std::uint32_t> same_as;      ///< per vertex: the first wedge with equal attributes
+  std::vector<std::uint32_t> target;       ///< per wedge, once its point has collapsed
   [[nodiscard]] std::span<const std::uint32_t> of_point(std::uint32_t point) const {
     return {wedges.data() + first_wedge[point], first_wedge[point + 1] - first_wedge[point]};
   }
@@ -55,7 +57,8 @@ struct WedgeTables {
 struct SurfaceOptions {
   bool with_wedges = false;  ///< make the wedge tables
   int threads = 0;           ///< 0 = all
-  std::uint32_t pools = 1;   ///< ring pools, one per cell
+  /// Points in a cell (collapse_rounds.h), and so in a ring pool.
+  std::uint32_t points_per_cell = 16384;
 };
 
 class WorkingSurface {
@@ -64,7 +67,9 @@ class WorkingSurface {
   std::vector<RingLine> lines;
   std::vector<RingPool> pools;
   WedgeTables wedge;
-  std::vector<std::uint32_t> class_of_point;  ///< position class of each point
+  std::vector<std::uint32_t> point_of_vertex;        ///< kNone for unused vertices
+  std::vector<std::uint32_t> first_vertex_of_point;  ///< the first vertex of the input there
+  std::vector<bool> is_face;                         ///< per triangle of the input
   std::uint32_t face_count = 0;               ///< live faces
   DVec3 center{0};
   double scale = 1;  ///< points are (position - center) * scale
@@ -80,11 +85,21 @@ class WorkingSurface {
   [[nodiscard]] std::span<RingEntry> ring_span(std::uint32_t point) {
     return {ring(point), points[point].ring_size};
   }
-  /// Replaces a ring; `entries` must not lie in the storage of rings. Long ones go to `pool`.
-  void set_ring(std::uint32_t point, std::span<const RingEntry> entries, std::uint32_t pool);
+  [[nodiscard]] std::uint32_t points_per_pool() const {
+    const auto count = static_cast<std::uint32_t>(std::max<std::size_t>(1, pools.size()));
+    return std::max(1u, (point_count() + count - 1) / count);
+  }
+  [[nodiscard]] std::uint32_t pool_of(std::uint32_t point) const {
+    return point / points_per_pool();
+  }
+  /// Replaces a ring; `entries` must not lie in the storage of rings. Long ones go to the pool
+  /// of the point's cell.
+  void set_ring(std::uint32_t point, std::span<const RingEntry> entries);
   void release_ring(std::uint32_t point);
 
   [[nodiscard]] std::size_t bytes() const;
+  /// Points that have not collapsed. O(n).
+  [[nodiscard]] std::uint32_t live_points() const;
 };
 
 /// What the simplifier had to leave out of the input.

@@ -1,0 +1,87 @@
+#include <varifold/simplify/collapse_sequence.h>
+
+#include <algorithm>
+
+namespace varifold {
+
+std::vector<std::uint32_t> CollapseSequence::ancestors(std::uint32_t level) const {
+  std::vector<std::uint32_t> result(target.size());
+  const std::uint32_t live = vertices[level];
+  for (std::uint32_t v = 0; v < result.size(); ++v) result[v] = v < live ? v : result[target[v]];
+  return result;
+}
+
+namespace {
+
+std::uint32_t last_at_most(const std::vector<std::uint32_t>& ascending, std::uint32_t bound) {
+  const auto end = std::upper_bound(ascending.begin(), ascending.end(), bound);
+  return end == ascending.begin() ? 0 : static_cast<std::uint32_t>(end - ascending.begin() - 1);
+}
+
+template <class T>
+void copy_attribute(const std::vector<T>& from, std::uint32_t index, std::vector<T>& to,
+                    std::uint32_t vertex) {
+  if (!from.empty()) to[vertex] = from[index];
+}
+
+}  // namespace
+
+std::uint32_t CollapseSequence::level_for_triangles(std::uint32_t count) const {
+  return last_at_most(triangles, count);
+}
+
+std::uint32_t CollapseSequence::level_for_vertices(std::uint32_t count) const {
+  return last_at_most(vertices, count);
+}
+
+std::uint32_t CollapseSequence::level_for_error(float bound) const {
+  const auto found = std::partition_point(error.begin(), error.end(),
+                                          [&](float e) { return e > bound; });
+  return std::min(static_cast<std::uint32_t>(found - error.begin()), step_count());
+}
+
+void apply_placement(const CollapseSequence& sequence, std::uint32_t level, TriangleMesh& mesh) {
+  if (!sequence.moves_vertices()) return;
+  for (std::uint32_t k = sequence.step_count(); k-- > level;) {
+    for (std::uint32_t j = sequence.first_placed[k]; j < sequence.first_placed[k + 1]; ++j) {
+      const std::uint32_t v = sequence.placed_vertex[j];
+      copy_attribute(sequence.placed.positions, j, mesh.positions, v);
+      copy_attribute(sequence.placed.normals, j, mesh.normals, v);
+      copy_attribute(sequence.placed.texcoords, j, mesh.texcoords, v);
+      copy_attribute(sequence.placed.colors, j, mesh.colors, v);
+    }
+  }
+}
+
+TriangleMesh mesh_at_level(const DetailedMesh& detailed, std::uint32_t level) {
+  const CollapseSequence& sequence = detailed.sequence;
+  const TriangleMesh& full = detailed.mesh;
+  const std::vector<std::uint32_t> ancestors = sequence.ancestors(level);
+
+  TriangleMesh mesh = full;
+  mesh.indices.clear();
+  mesh.ranges.clear();
+  std::vector<MaterialRange> ranges = full.ranges;
+  if (ranges.empty()) ranges.push_back({0, 0, full.triangle_count()});
+  for (const MaterialRange& range : ranges) {
+    MaterialRange kept{range.material, mesh.triangle_count(), 0};
+    for (std::uint32_t t = range.first_triangle; t < range.first_triangle + range.triangle_count;
+         ++t) {
+      if (sequence.triangle_level[t] > level) break;
+      for (int k = 0; k < 3; ++k)
+        mesh.indices.push_back(ancestors[full.indices[3 * std::size_t{t} + k]]);
+      ++kept.triangle_count;
+    }
+    if (!full.ranges.empty() && kept.triangle_count > 0) mesh.ranges.push_back(kept);
+  }
+
+  apply_placement(sequence, level, mesh);
+  const std::uint32_t live = sequence.vertices[level];
+  mesh.positions.resize(live);
+  if (mesh.has_normals()) mesh.normals.resize(live);
+  if (mesh.has_texcoords()) mesh.texcoords.resize(live);
+  if (mesh.has_colors()) mesh.colors.resize(live);
+  return mesh;
+}
+
+}  // namespace varifold

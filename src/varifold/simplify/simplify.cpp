@@ -1,0 +1,128 @@
+#include <varifold/simplify/simplify.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <varifold/simplify/collapse_rounds.h>
+#include <varifold/simplify/deviation.h>
+#include <varifold/simplify/initial_error.h>
+#include <varifold/simplify/sequence_builder.h>
+#include <varifold/simplify/stop_report.h>
+
+namespace varifold {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+std::string check_input(const TriangleMesh& mesh) {
+  const std::size_t vertices = mesh.positions.size();
+  if (vertices >= kNone || mesh.indices.size() / 3 >= kNone / 3) return "mesh too large for 32 bits";
+  if (mesh.indices.size() % 3 != 0) return "the number of indices is no multiple of three";
+  for (std::size_t i = 0; i < mesh.indices.size(); ++i)
+    if (mesh.indices[i] >= vertices)
+      return "triangle " + std::to_string(i / 3) + " uses vertex " +
+             std::to_string(mesh.indices[i]) + " of " + std::to_string(vertices);
+  for (std::size_t v = 0; v < vertices; ++v)
+    for (int k = 0; k < 3; ++k)
+      if (!std::isfinite(mesh.positions[v][k]))
+        return "vertex " + std::to_string(v) + " has a position that is not finite";
+  const auto fits = [&](std::size_t size) { return size == 0 || size == vertices; };
+  if (!fits(mesh.normals.size()) || !fits(mesh.texcoords.size()) || !fits(mesh.colors.size()))
+    return "an attribute array has another size than the positions";
+  std::uint32_t next = 0;
+  for (const MaterialRange& range : mesh.ranges) {
+    if (range.first_triangle != next || range.triangle_count > mesh.triangle_count() - next)
+      return "the material ranges do not cover the triangles in order";
+    next += range.triangle_count;
+  }
+  if (!mesh.ranges.empty() && next != mesh.triangle_count())
+    return "the material ranges do not cover all triangles";
+  return {};
+}
+
+// The number of steps after which the mesh has at most `target` faces.
+std::size_t steps_to_target(const CollapseLog& log, std::uint32_t faces, std::uint32_t target) {
+  std::size_t steps = 0;
+  while (steps < log.entries.size() && faces > target) faces -= log.entries[steps++].removed_faces;
+  return steps;
+}
+
+bool needs_wedges(const TriangleMesh& mesh) {
+  return mesh.has_normals() || mesh.has_texcoords() || mesh.has_colors() || mesh.ranges.size() > 1;
+}
+
+// Cuts a sequence that is not wanted below `level`: that level becomes the base.
+void cut_below(DetailedMesh& detailed, std::uint32_t level) {
+  CollapseSequence& sequence = detailed.sequence;
+  if (level == 0) return;
+  const std::uint32_t base = sequence.vertices[level];
+  std::fill_n(sequence.target.begin(), base, kNone);
+  const auto drop = [&](auto& values) { values.erase(values.begin(), values.begin() + level); };
+  drop(sequence.vertices);
+  drop(sequence.triangles);
+  drop(sequence.error);
+  if (sequence.moves_vertices()) drop(sequence.first_placed);
+  for (std::uint32_t& l : sequence.triangle_level) l = l > level ? l - level : 0;
+}
+
+}  // namespace
+
+Result<Simplification> simplify(const TriangleMesh& mesh, const SimplifyOptions& options) {
+  if (std::string fault = check_input(mesh); !fault.empty())
+    return fail(ErrorKind::kInvalidInput, std::move(fault));
+  const auto start = Clock::now();
+  Simplification result;
+
+  // Build the working surface and its quadrics.
+  SurfaceOptions surface_options;
+  surface_options.with_wedges = needs_wedges(mesh);
+  surface_options.threads = options.threads;
+  WorkingSurface surface = build_surface(mesh, surface_options, result.faults);
+  const std::uint32_t all_faces = surface.face_count;
+  AttributeField attributes;
+  if (surface_options.with_wedges) attributes = AttributeField(mesh, options.attributes);
+  ErrorOptions error_options;
+  error_options.threads = options.threads;
+  set_initial_error(surface, &attributes, error_options);
+
+  // Collapse until the target or until nothing is legal.
+  CollapserOptions collapser_options;
+  collapser_options.legality = options.legality;
+  Collapser collapser(surface, &attributes, collapser_options);
+  RoundOptions rounds;
+  rounds.target_faces = options.target_triangles;
+  rounds.threads = options.threads;
+  rounds.progress = options.progress;
+  const CollapseLog log = run_rounds(surface, collapser, rounds);
+  if (log.cancelled) return fail(ErrorKind::kCancelled, "cancelled while simplifying");
+  result.scratch_bytes = surface.bytes() + attributes.bytes() + log.queue_bytes;
+
+  // Number the mesh by the sequence.
+  const std::size_t steps = steps_to_target(log, all_faces, options.target_triangles);
+  result.stop = report_stop(surface, collapser, options, steps == log.entries.size());
+  result.detailed = build_sequence(mesh, surface, log, steps);
+  result.collapse_seconds = seconds_since(start);
+
+  // Measure what the levels are worth.
+  if (options.measure_error) {
+    const auto measure_start = Clock::now();
+    if (!measure_deviation(result.detailed, {options.threads, options.progress}))
+      return fail(ErrorKind::kCancelled, "cancelled while measuring the error");
+    result.measure_seconds = seconds_since(measure_start);
+  }
+  CollapseSequence& sequence = result.detailed.sequence;
+  if (const std::uint32_t level = sequence.level_for_error(options.max_error); level > 0) {
+    cut_below(result.detailed, level);
+    result.stop.reason = StopReason::kErrorReached;
+    result.stop.advice.clear();
+  }
+  result.stop.triangles = sequence.triangles.front();
+  return result;
+}
+
+}  // namespace varifold

@@ -1,0 +1,84 @@
+// From a triangle mesh to its collapse sequence.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <varifold/base/progress.h>
+#include <varifold/base/result.h>
+#include <varifold/simplify/attribute_field.h>
+#include <varifold/simplify/collapse_sequence.h>
+#include <varifold/simplify/legality.h>
+#include <varifold/simplify/working_surface.h>
+#include <vector>
+
+namespace varifold {
+
+/// Where the vertices of a collapsed edge go.
+enum class Placement {
+  kKept,     ///< onto one of its ends: every level uses vertices of the input
+  kOptimal,  ///< to the place of least error: smaller errors, one new vertex a step
+};
+
+struct SimplifyOptions {
+  Placement placement = Placement::kKept;
+  AttributeWeights attributes;
+  LegalityOptions legality;
+  /// Stop at the finest level that has at most so many triangles. 0: go on while anything is legal.
+  std::uint32_t target_triangles = 0;
+  /// Stop at the coarsest level whose measured error is at most this, in model units.
+  float max_error = std::numeric_limits<float>::infinity();
+  /// Measure the error of every level (deviation.h); otherwise levels carry an estimate.
+  bool measure_error = true;
+  int threads = 0;  ///< 0 = all; the result does not depend on it
+  Progress progress;
+};
+
+enum class StopReason {
+  kTargetReached,  ///< the asked number of triangles
+  kErrorReached,   ///< the next collapse would have exceeded the asked error
+  kExhausted,      ///< no legal collapse is left, and none was expected to be: the base is small
+  kStuck,          ///< no legal collapse is left far above the target
+};
+
+/// Names as in reports and JSON: target_reached, error_reached, exhausted, stuck.
+[[nodiscard]] const char* stop_reason_name(StopReason reason);
+
+/// Why and where a simplification stopped.
+struct StopReport {
+  StopReason reason = StopReason::kExhausted;
+  std::uint32_t triangles = 0;  ///< at the last level
+  /// Points that were left when no legal collapse was, by kind.
+  std::array<std::uint32_t, kVertexKindCount> left_by_kind{};
+  /// For each point left, why its cheapest collapse was refused.
+  std::array<std::uint32_t, kRefusalCount> refusals{};
+  /// One or two sentences that say what would help; empty where nothing needs to.
+  std::string advice;
+};
+
+struct Simplification {
+  DetailedMesh detailed;
+  StopReport stop;
+  InputFaults faults;
+  std::uint64_t scratch_bytes = 0;  ///< memory at work beside input and output, its peak
+  double collapse_seconds = 0;      ///< the sequence alone
+  double measure_seconds = 0;
+};
+
+/// Orders half-edge collapses by quadric error, attributes included, until the target or until
+/// nothing legal is left, and numbers the mesh by that order.
+///
+/// The mesh may be open, non-manifold, of several components, with seams: topology is that of
+/// position classes; borders, seams, material borders and non-manifold edges collapse along
+/// themselves (vertex_kind.h). Vertices that no triangle uses, and triangles without three distinct
+/// positions, are left out. Vertices with equal attributes are one.
+///
+/// Guarantees: every level has the Euler characteristic, borders and orientation of the input; no
+/// triangle turned by a step by more than 75 degrees; same bytes for any number of threads.
+/// Errors: kInvalidInput when indices or array sizes are wrong or positions are not finite;
+/// kCancelled. O(n log n) time, under 200 bytes of scratch a vertex without attributes.
+[[nodiscard]] Result<Simplification> simplify(const TriangleMesh& mesh,
+                                              const SimplifyOptions& options = {});
+
+}  // namespace varifold
