@@ -1,10 +1,12 @@
 #include <varifold/base/parallel.h>
 
-#include <algorithm>
 #include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+#include <algorithm>
+#include <optional>
 
 namespace varifold {
 
@@ -19,6 +21,10 @@ void parallel_for(int threads, std::size_t count, std::size_t grain,
     for (std::size_t i = 0; i < pieces; ++i) body(i * grain, std::min(count, (i + 1) * grain));
     return;
   }
+  // oneTBB caps its workers at the hardware's; more are given where they are asked for.
+  std::optional<tbb::global_control> raised;
+  if (threads > hardware_threads())
+    raised.emplace(tbb::global_control::max_allowed_parallelism, threads);
   tbb::task_arena arena(threads);
   arena.execute([&] {
     tbb::parallel_for(

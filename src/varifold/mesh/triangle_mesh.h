@@ -1,10 +1,10 @@
 // TriangleMesh: the value type that carries every mesh through the house.
 #pragma once
 
+#include <varifold/base/math.h>
 #include <array>
 #include <cstdint>
 #include <string>
-#include <varifold/base/math.h>
 #include <vector>
 
 namespace varifold {

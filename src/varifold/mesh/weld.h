@@ -1,9 +1,9 @@
 // Position classes: vertices at one place are one point of the surface, whatever their attributes.
 #pragma once
 
+#include <varifold/base/math.h>
 #include <cstdint>
 #include <span>
-#include <varifold/base/math.h>
 #include <vector>
 
 namespace varifold {

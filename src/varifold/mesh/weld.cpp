@@ -1,0 +1,183 @@
+#include <varifold/mesh/weld.h>
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace varifold {
+
+namespace {
+
+std::uint64_t mix(std::uint64_t a, std::uint64_t b) {
+  std::uint64_t h = a * 0x9e3779b97f4a7c15u;
+  h = (h ^ (h >> 32)) + b;
+  h *= 0xd6e8feb86659fd93u;
+  h = (h ^ (h >> 32)) * 0xd6e8feb86659fd93u;
+  return h ^ (h >> 32);
+}
+
+/// The bits of a position, with one pattern for both zeros.
+struct PositionBits {
+  std::uint64_t xy;
+  std::uint32_t z;
+
+  explicit PositionBits(const Vec3& p) {
+    const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x == 0.0f ? 0.0f : x); };
+    xy = bits(p.x) | (static_cast<std::uint64_t>(bits(p.y)) << 32);
+    z = bits(p.z);
+  }
+  bool operator==(const PositionBits&) const = default;
+  [[nodiscard]] std::uint64_t hash() const { return mix(xy, z); }
+};
+
+/// Open addressing wants at most half of its slots in use.
+std::size_t table_size(std::size_t count) {
+  return std::bit_ceil(std::max<std::size_t>(2 * count, 16));
+}
+
+/// Union-find whose roots are the smallest members, so that the numbering needs no second sort.
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::uint32_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), 0u);
+  }
+  std::uint32_t find(std::uint32_t x) {
+    while (parent_[x] != x) x = parent_[x] = parent_[parent_[x]];
+    return x;
+  }
+  void unite(std::uint32_t a, std::uint32_t b) {
+    a = find(a);
+    b = find(b);
+    if (a < b) parent_[b] = a;
+    if (b < a) parent_[a] = b;
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+/// A cell of the grid. Coordinates are kept as whole doubles: where they exceed 2^53 the spacing
+/// of floats is far above the cell size, so that only equal positions can be near each other.
+struct Cell {
+  double x, y, z;
+  bool operator==(const Cell&) const = default;
+  [[nodiscard]] std::uint64_t hash() const {
+    // Adding zero turns -0 into 0.
+    return mix(mix(std::bit_cast<std::uint64_t>(x + 0.0), std::bit_cast<std::uint64_t>(y + 0.0)),
+               std::bit_cast<std::uint64_t>(z + 0.0));
+  }
+};
+
+/// A hash table from cells to the points in them, as linked lists.
+class Grid {
+ public:
+  explicit Grid(std::uint32_t count)
+      : heads_(table_size(count), kNone), cell_of_(count), next_(count, kNone) {}
+
+  [[nodiscard]] std::uint32_t first(const Cell& cell) const { return heads_[slot(cell)]; }
+  [[nodiscard]] std::uint32_t next(std::uint32_t point) const { return next_[point]; }
+
+  void insert(std::uint32_t point, const Cell& cell) {
+    std::uint32_t& head = heads_[slot(cell)];
+    cell_of_[point] = cell;
+    next_[point] = head;
+    head = point;
+  }
+
+ private:
+  [[nodiscard]] std::size_t slot(const Cell& cell) const {
+    const std::size_t mask = heads_.size() - 1;
+    std::size_t i = cell.hash() & mask;
+    while (heads_[i] != kNone && !(cell_of_[heads_[i]] == cell)) i = (i + 1) & mask;
+    return i;
+  }
+
+  std::vector<std::uint32_t> heads_;
+  std::vector<Cell> cell_of_;
+  std::vector<std::uint32_t> next_;
+};
+
+bool is_finite(const Vec3& p) {
+  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
+/// Joins `point` with the points of the 27 cells around it that were inserted before it.
+void unite_with_near(const std::vector<Vec3>& points, std::uint32_t point, double tolerance,
+                     Grid& grid, DisjointSets& sets) {
+  const DVec3 p(points[point]);
+  const Cell home{std::floor(p.x / tolerance), std::floor(p.y / tolerance),
+                  std::floor(p.z / tolerance)};
+  for (int dz = -1; dz <= 1; ++dz)
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx) {
+        const Cell cell{home.x + dx, home.y + dy, home.z + dz};
+        for (std::uint32_t q = grid.first(cell); q != kNone; q = grid.next(q)) {
+          const DVec3 d = DVec3(points[q]) - p;
+          if (glm::dot(d, d) <= tolerance * tolerance) sets.unite(q, point);
+        }
+      }
+  grid.insert(point, home);
+}
+
+}  // namespace
+
+WeldMap weld_exact(std::span<const Vec3> positions) {
+  const std::size_t count = positions.size();
+  const std::size_t mask = table_size(count) - 1;
+  std::vector<std::uint32_t> first_vertex(mask + 1, kNone);
+  WeldMap weld;
+  weld.class_of.resize(count);
+
+  // Every look-up is a cache miss: hash a block ahead and prefetch its slots.
+  constexpr std::size_t kBlock = 32;
+  std::size_t slots[kBlock];
+  for (std::size_t begin = 0; begin < count; begin += kBlock) {
+    const std::size_t size = std::min(kBlock, count - begin);
+    for (std::size_t i = 0; i < size; ++i) {
+      slots[i] = PositionBits(positions[begin + i]).hash() & mask;
+      __builtin_prefetch(&first_vertex[slots[i]], 1);
+    }
+    for (std::size_t i = 0; i < size; ++i) {
+      const std::size_t v = begin + i;
+      const PositionBits bits(positions[v]);
+      std::size_t slot = slots[i];
+      while (first_vertex[slot] != kNone && !(PositionBits(positions[first_vertex[slot]]) == bits))
+        slot = (slot + 1) & mask;
+      if (first_vertex[slot] == kNone) {
+        first_vertex[slot] = static_cast<std::uint32_t>(v);
+        weld.class_of[v] = weld.class_count++;
+      } else {
+        weld.class_of[v] = weld.class_of[first_vertex[slot]];
+      }
+    }
+  }
+  return weld;
+}
+
+WeldMap weld_within(std::span<const Vec3> positions, float tolerance) {
+  WeldMap weld = weld_exact(positions);
+  if (!(tolerance > 0)) return weld;
+
+  // One point per exact class: many vertices at one place cost no more than one.
+  std::vector<Vec3> points(weld.class_count);
+  for (std::size_t v = positions.size(); v-- > 0;) points[weld.class_of[v]] = positions[v];
+
+  DisjointSets sets(weld.class_count);
+  Grid grid(weld.class_count);
+  for (std::uint32_t point = 0; point < weld.class_count; ++point)
+    if (is_finite(points[point])) unite_with_near(points, point, tolerance, grid, sets);
+
+  // Number the sets by their first member; a root precedes its members.
+  std::vector<std::uint32_t> number(weld.class_count);
+  std::uint32_t count = 0;
+  for (std::uint32_t c = 0; c < weld.class_count; ++c) {
+    const std::uint32_t root = sets.find(c);
+    number[c] = root == c ? count++ : number[root];
+  }
+  for (std::uint32_t& c : weld.class_of) c = number[c];
+  weld.class_count = count;
+  return weld;
+}
+
+}  // namespace varifold
