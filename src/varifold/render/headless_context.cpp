@@ -84,8 +84,8 @@ std::vector<EGLDisplay> candidate_displays(const HeadlessOptions& options) {
   if (has_word(extensions, "EGL_EXT_platform_base")) {
     if (!software_only(options)) displays = gpu_displays(extensions);
     if (has_word(extensions, "EGL_MESA_platform_surfaceless"))
-      displays.push_back(eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA,
-                                                  EGL_DEFAULT_DISPLAY, nullptr));
+      displays.push_back(
+          eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
   }
   displays.push_back(eglGetDisplay(EGL_DEFAULT_DISPLAY));
   std::erase(displays, EGL_NO_DISPLAY);
@@ -143,7 +143,8 @@ Result<HeadlessContext> HeadlessContext::create(const HeadlessOptions& options) 
     return context;
   }
   if (!any_display)
-    return no_context("no EGL display: is libegl1 with Mesa (libegl-mesa0, libgl1-mesa-dri) there?");
+    return no_context(
+        "no EGL display: is libegl1 with Mesa (libegl-mesa0, libgl1-mesa-dri) there?");
   return no_context("no driver here offers OpenGL 4.5 core");
 }
 

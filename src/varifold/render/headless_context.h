@@ -1,9 +1,9 @@
 // An OpenGL context without a window, for pictures on servers and in tests.
 #pragma once
 
+#include <varifold/base/result.h>
 #include <memory>
 #include <string>
-#include <varifold/base/result.h>
 
 namespace varifold {
 
