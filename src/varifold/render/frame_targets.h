@@ -1,0 +1,28 @@
+// Private to this folder: the textures that a picture passes through on its way to the display.
+#pragma once
+
+#include <varifold/base/result.h>
+#include <varifold/render/gl_objects.h>
+
+namespace varifold::gl {
+
+/// The multisampled scene in linear colour (alpha: surface or background) and its depth; a copy of
+/// the first samples' depth; and the picture in sRGB.
+struct FrameTargets {
+  TextureSize scene_size;  ///< supersampled
+  TextureSize picture_size;
+
+  Texture scene_color, scene_depth;
+  Framebuffer scene;
+  Texture first_depth;
+  Framebuffer first_depth_target;
+  Texture picture_color;
+  Framebuffer picture;
+
+  /// Makes everything anew if a size changed. kFailed when memory ends.
+  [[nodiscard]] Result<void> resize(const TextureSize& new_scene, const TextureSize& new_picture);
+  /// Fills first_depth from scene_depth.
+  void copy_first_depth() const;
+};
+
+}  // namespace varifold::gl

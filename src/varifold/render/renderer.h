@@ -1,0 +1,115 @@
+// Draws draw lists into pictures with OpenGL 4.5; knows nothing of models.
+#pragma once
+
+#include <varifold/base/result.h>
+#include <varifold/render/image.h>
+#include <varifold/view/camera.h>
+#include <varifold/view/draw_list.h>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+namespace varifold {
+
+enum class Shading {
+  kSmooth,  ///< by the vertex normals; facets where the list has none
+  kFlat,    ///< every triangle by its own normal
+};
+
+enum class ColorMode {
+  kPlain,        ///< DrawStyle::plain_color for all
+  kMaterial,     ///< DrawStyle::material_colors by the material of each range
+  kVertexColor,  ///< the vertex colours of the list; plain where it has none
+  kLevel,        ///< a ramp from blue (coarse) to red (fine) by the level of each range
+};
+
+enum class BackFaces {
+  kTinted,     ///< lit, but in DrawStyle::back_tint: flips and holes show
+  kLikeFront,  ///< two-sided surfaces
+  kCulled,     ///< not drawn
+};
+
+/// How one draw list is drawn. Colours are sRGB, 0 to 1, unless it says otherwise.
+struct DrawStyle {
+  Shading shading = Shading::kSmooth;
+  ColorMode color_mode = ColorMode::kPlain;
+  BackFaces back_faces = BackFaces::kTinted;
+  Vec3 plain_color{0.80f, 0.76f, 0.71f};  ///< a warm clay
+  Vec3 back_tint{0.80f, 0.22f, 0.25f};
+  /// Linear base colours as in Material::base_color, by material; alpha is not used. Materials
+  /// beyond the end are drawn plain.
+  std::span<const Vec4> material_colors;
+  bool wireframe = false;                       ///< draws the triangles' edges over the shading
+  float wire_width = 1.0f;                      ///< pixels of the result
+  Vec4 wire_color{0.07f, 0.09f, 0.13f, 0.60f};  ///< and opacity
+  /// Model to world. A rotation, a uniform scale without mirroring, and a translation.
+  Mat4 placement{1.0f};
+};
+
+/// What holds for a whole picture.
+struct PictureOptions {
+  int samples = 4;        ///< per pixel, 1 to 32; as many as the device has, at most
+  int supersampling = 1;  ///< additional samples per axis, each shaded on its own, 1 to 8
+  Vec3 background_top{0.955f, 0.960f, 0.970f};     ///< sRGB
+  Vec3 background_bottom{0.790f, 0.810f, 0.840f};  ///< sRGB
+  /// Darkens creases and contacts by what surrounds them on the screen. For show: it spreads the
+  /// effect of a change over neighbouring pixels, so measurements leave it off.
+  bool ambient_occlusion = false;
+};
+
+/// The smallest and largest picture side that can be asked for, supersampling included.
+inline constexpr int kMaxFrameSize = 16384;
+
+/// A draw list whose buffers a renderer keeps on the graphics card.
+enum class GpuMesh : std::uint32_t {};
+
+/// Needs a current context with OpenGL 4.5 (a HeadlessContext, or a window's) for as long as it
+/// lives; used by the thread that has the context. Buffers stay on the card between frames, and
+/// only what changed is uploaded.
+///
+/// A frame is begin, any number of draws, then read_image, read_depth or present. After the first
+/// frame of a size, begin and draw allocate nothing.
+class Renderer {
+ public:
+  /// kFailed without a context of OpenGL 4.5, or when a shader does not compile.
+  [[nodiscard]] static Result<Renderer> create();
+  Renderer(Renderer&&) noexcept;
+  Renderer& operator=(Renderer&&) noexcept;
+  ~Renderer();
+
+  /// Uploads a list as a whole. kInvalidInput when its spans or ranges do not fit together
+  /// (O(ranges); indices are trusted), kFailed when the graphics memory ends.
+  [[nodiscard]] Result<GpuMesh> add(const DrawList& list);
+  /// Brings the buffers up to date with the next list of the same instance; returns the bytes
+  /// uploaded. Errors as add.
+  [[nodiscard]] Result<std::size_t> update(GpuMesh mesh, const DrawList& list);
+  /// Frees the buffers. The name may be given out again.
+  void remove(GpuMesh mesh);
+
+  /// Starts a picture of the camera's size. kInvalidInput for a camera that is not usable or
+  /// a size above kMaxFrameSize, kFailed when the graphics memory ends.
+  [[nodiscard]] Result<void> begin(const Camera& camera, const PictureOptions& options = {});
+  /// Draws the ranges of a list out of the buffers of `mesh`, which must have been brought up to
+  /// date with that list. Only between begin and the next begin.
+  [[nodiscard]] Result<void> draw(GpuMesh mesh, const DrawList& list, const DrawStyle& style = {});
+
+  /// The picture as drawn so far.
+  [[nodiscard]] Result<Image8> read_image();
+  /// The distances at the first sample of every pixel as drawn so far.
+  [[nodiscard]] Result<DepthImage> read_depth();
+  /// Shows the picture in a framebuffer of the context, 0 for its window, of the camera's size.
+  [[nodiscard]] Result<void> present(std::uint32_t framebuffer = 0);
+
+  /// add, begin, draw, read_image and remove in one.
+  [[nodiscard]] Result<Image8> render(const DrawList& list, const Camera& camera,
+                                      const DrawStyle& style = {},
+                                      const PictureOptions& options = {});
+
+ private:
+  struct Impl;
+  explicit Renderer(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace varifold
