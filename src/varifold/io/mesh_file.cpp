@@ -3,8 +3,10 @@
 #include <varifold/base/bytes.h>
 #include <varifold/io/import_check.h>
 #include <varifold/io/mapped_file.h>
+#include <varifold/io/obj.h>
 #include <varifold/io/output_file.h>
 #include <varifold/io/ply.h>
+#include <varifold/io/stl.h>
 #include <algorithm>
 #include <cctype>
 
@@ -29,19 +31,11 @@ std::optional<MeshFormat> format_of_extension(const std::filesystem::path& path)
   return std::nullopt;
 }
 
-/// Size = 84 + 50 n is the surest sign of a binary STL: some of these begin with "solid", too.
-bool is_binary_stl(std::span<const std::byte> file) {
-  constexpr std::size_t kHeader = 84;
-  if (file.size() < kHeader) return false;
-  const std::uint64_t triangles = load<std::uint32_t>(file.data() + 80);
-  return file.size() == kHeader + 50 * triangles;
-}
-
 std::optional<MeshFormat> format_of_content(std::span<const std::byte> file) {
   const std::string_view text = as_text(file.first(std::min<std::size_t>(file.size(), 4096)));
   if (text.starts_with("ply\n") || text.starts_with("ply\r")) return MeshFormat::kPly;
   if (text.starts_with("glTF")) return MeshFormat::kGlb;
-  if (is_binary_stl(file)) return MeshFormat::kStl;
+  if (has_binary_stl_size(file)) return MeshFormat::kStl;
   std::string_view start = text;
   if (start.starts_with("\xEF\xBB\xBF")) start.remove_prefix(3);
   start.remove_prefix(std::min(start.find_first_not_of(" \t\r\n"), start.size()));
@@ -60,6 +54,22 @@ tl::unexpected<Error> unknown_format(std::span<const std::byte> file) {
   return fail(ErrorKind::kUnsupported, std::string("not a mesh format; ") + kKnownFormats);
 }
 
+/// The files beside the OBJ come first, so that an OBJ never names a file that is not there.
+Result<void> write_obj_files(const TriangleMesh& mesh, const std::filesystem::path& path) {
+  const ObjFiles files = write_obj(mesh, path.stem().string());
+  for (const ObjFiles::ImageFile& image : files.images)
+    if (auto written = write_file(path.parent_path() / image.name,
+                                  std::as_bytes(std::span(mesh.images[image.image].bytes)));
+        !written)
+      return written;
+  if (!files.materials.empty())
+    if (auto written =
+            write_file(std::filesystem::path(path).replace_extension(".mtl"), files.materials);
+        !written)
+      return written;
+  return write_file(path, files.obj);
+}
+
 }  // namespace
 
 std::optional<MeshFormat> mesh_format(std::span<const std::byte> file,
@@ -69,10 +79,14 @@ std::optional<MeshFormat> mesh_format(std::span<const std::byte> file,
 }
 
 Result<ImportedMesh> decode_mesh(std::span<const std::byte> file, MeshFormat format,
-                                 const std::filesystem::path& /*folder*/) {
+                                 const std::filesystem::path& folder) {
   switch (format) {
     case MeshFormat::kPly:
       return read_ply(file);
+    case MeshFormat::kObj:
+      return read_obj(file, folder);
+    case MeshFormat::kStl:
+      return read_stl(file);
     default:
       return fail(ErrorKind::kUnsupported, "not yet");
   }
@@ -82,7 +96,8 @@ Result<ImportedMesh> read_mesh(const std::filesystem::path& path) {
   const auto file = MappedFile::open(path);
   if (!file) return tl::unexpected(file.error());
   const auto format = mesh_format(file->bytes(), path);
-  auto result = format ? decode_mesh(file->bytes(), *format, path.parent_path())
+  const auto folder = path.has_parent_path() ? path.parent_path() : ".";
+  auto result = format ? decode_mesh(file->bytes(), *format, folder)
                        : Result<ImportedMesh>(unknown_format(file->bytes()));
   if (!result) return fail_in(path.string(), std::move(result.error()));
   return result;
@@ -91,6 +106,7 @@ Result<ImportedMesh> read_mesh(const std::filesystem::path& path) {
 Result<void> write_mesh(const TriangleMesh& mesh, const std::filesystem::path& path) {
   const auto format = format_of_extension(path);
   if (format == MeshFormat::kPly) return write_file(path, write_ply(mesh));
+  if (format == MeshFormat::kObj) return write_obj_files(mesh, path);
   return fail(ErrorKind::kFailed,
               path.string() + ": cannot write this format; known are .ply, .obj and .glb");
 }
@@ -98,6 +114,9 @@ Result<void> write_mesh(const TriangleMesh& mesh, const std::filesystem::path& p
 std::vector<std::string> unwritten_parts(const TriangleMesh& mesh, MeshFormat format) {
   std::vector<std::string> parts;
   if (format == MeshFormat::kPly && !mesh.materials.empty()) parts.emplace_back("materials");
+  if (format == MeshFormat::kObj &&
+      std::any_of(mesh.colors.begin(), mesh.colors.end(), [](Color c) { return c.a != 255; }))
+    parts.emplace_back("alpha of vertex colours");
   return parts;
 }
 

@@ -18,7 +18,7 @@ enum class MeshFormat { kPly, kObj, kStl, kGltf, kGlb };
                                                     const std::filesystem::path& path);
 
 /// Reads a mesh from memory. `folder` is where files lie that it names (materials, buffers); with
-/// an empty folder these are looked for in the current one.
+/// an empty folder no file is opened.
 /// Errors: kInvalidInput or kUnsupported; the message begins with the place in the file.
 [[nodiscard]] Result<ImportedMesh> decode_mesh(std::span<const std::byte> file, MeshFormat format,
                                                const std::filesystem::path& folder = {});

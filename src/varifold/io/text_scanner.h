@@ -73,6 +73,14 @@ class TextScanner {
     return true;
   }
 
+  /// Reads a whole number that stands right here, whatever follows it.
+  bool digits_here(std::int64_t& value) {
+    const auto [last, error] = std::from_chars(at_, end_, value);
+    if (error != std::errc()) return false;
+    at_ = last;
+    return true;
+  }
+
   /// The number of the line of a position, from 1. O(position): for messages.
   [[nodiscard]] std::size_t line_of(std::size_t position) const {
     std::size_t count = 1;
