@@ -47,8 +47,8 @@ struct TopologyReport {
   std::uint32_t nonmanifold_vertices = 0;  ///< used classes whose link is not one path or cycle;
                                            ///< so both ends of every non-manifold edge
   std::uint32_t components = 0;            ///< connected by common position classes
-  /// Chains of boundary edges, each followed from triangle fan to triangle fan: two holes that
-  /// touch at a vertex are two. A chain that ends at a non-manifold edge counts as well.
+  /// Loops of boundary edges, followed along the triangles: as if every vertex where several fans
+  /// touch were split into one per fan. A chain that ends at a non-manifold edge counts as well.
   std::uint32_t boundary_loops = 0;
   std::int64_t euler_characteristic = 0;  ///< used classes - edges + triangles
   bool closed = false;  ///< there is a triangle and every edge has an even number of them
