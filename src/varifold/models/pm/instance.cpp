@@ -1,0 +1,235 @@
+#include <varifold/models/pm/instance.h>
+
+#include <algorithm>
+#include <cassert>
+
+namespace varifold {
+
+namespace {
+
+constexpr std::uint32_t kLastSlot = ProgressiveMeshData::kLastSlot;
+constexpr std::uint32_t kNoSlot = ProgressiveMeshData::kNoSlot;
+
+template <class T>
+void copy_one(const std::vector<T>& from, std::uint32_t index, std::vector<T>& to,
+              std::uint32_t vertex) {
+  if (!from.empty()) to[vertex] = from[index];
+}
+
+std::size_t block_count(std::size_t elements, std::uint32_t bits) {
+  return (elements >> bits) + 1;
+}
+
+// Joins neighbouring changed blocks into ranges of elements below `size`, and forgets them.
+void take_blocks(std::vector<std::uint8_t>& blocks, std::uint32_t bits, std::uint32_t size,
+                 std::vector<ElementRange>& ranges) {
+  ranges.clear();
+  for (std::uint32_t i = 0; i < blocks.size() && (i << bits) < size; ++i) {
+    if (!blocks[i]) continue;
+    blocks[i] = 0;
+    const std::uint32_t first = i << bits;
+    const std::uint32_t count = std::min(size - first, 1u << bits);
+    if (!ranges.empty() && ranges.back().first + ranges.back().count == first)
+      ranges.back().count += count;
+    else
+      ranges.push_back({first, count});
+  }
+}
+
+}  // namespace
+
+ProgressiveMeshInstance::ProgressiveMeshInstance(std::shared_ptr<const ProgressiveMesh> model)
+    : model_(std::move(model)) {
+  const ProgressiveMeshData& data = model_->data();
+  indices_ = data.mesh.indices;
+  vertex_count_ = data.base_vertices;
+  triangle_count_ = data.base_triangles;
+  changed_blocks_.assign(block_count(indices_.size(), kBlockBits), 1);
+  changed_vertex_blocks_.assign(block_count(data.mesh.positions.size(), kBlockBits), 1);
+  changed_indices_.reserve(changed_blocks_.size());
+  changed_vertices_.reserve(changed_vertex_blocks_.size());
+
+  const std::size_t ranges = std::max<std::size_t>(1, data.mesh.ranges.size());
+  range_counts_.assign(ranges, 0);
+  ranges_.reserve(ranges);
+  for (std::size_t r = 0; r < data.mesh.ranges.size() && !data.triangle_level.empty(); ++r) {
+    const MaterialRange& range = data.mesh.ranges[r];
+    const auto first = data.triangle_level.begin() + range.first_triangle;
+    range_counts_[r] = static_cast<std::uint32_t>(
+        std::upper_bound(first, first + range.triangle_count, 0u) - first);
+  }
+  if (model_->moves_vertices()) {
+    moved_.positions = data.mesh.positions;
+    moved_.normals = data.mesh.normals;
+    moved_.texcoords = data.mesh.texcoords;
+    moved_.colors = data.mesh.colors;
+    // Level k has what the collapse to k or the last one before it set: go down to level 0.
+    for (auto j = static_cast<std::uint32_t>(data.placed_vertex.size()); j-- > 0;)
+      place(data.placed_vertex[j], data.placed, j);
+  }
+}
+
+void ProgressiveMeshInstance::place(std::uint32_t vertex, const TriangleMesh& from,
+                                    std::uint32_t index) {
+  copy_one(from.positions, index, moved_.positions, vertex);
+  copy_one(from.normals, index, moved_.normals, vertex);
+  copy_one(from.texcoords, index, moved_.texcoords, vertex);
+  copy_one(from.colors, index, moved_.colors, vertex);
+  changed_vertex_blocks_[vertex >> kBlockBits] = 1;
+}
+
+void ProgressiveMeshInstance::go_to_level(std::uint32_t level) {
+  level = std::min(level, model_->finest_level());
+  if (level > level_)
+    split_to(level);
+  else
+    collapse_to(level);
+  level_ = level;
+  update_ranges();
+}
+
+void ProgressiveMeshInstance::split_to(std::uint32_t level) {
+  const ProgressiveMeshData& data = model_->data();
+  const std::uint32_t* slot = data.slots.data() + slot_cursor_;
+  std::uint32_t* indices = indices_.data();
+  std::uint8_t* changed = changed_blocks_.data();
+  for (std::uint32_t k = level_; k < level; ++k) {
+    const VertexSplit split = data.splits[k];
+    if (split.vertices == 1) {
+      for (std::uint32_t i = 0; i < split.slots; ++i) {
+        const std::uint32_t place = slot[i] & ~kLastSlot;
+        indices[place] = vertex_count_;
+        changed[place >> kBlockBits] = 1;
+      }
+    } else {
+      std::uint32_t vertex = vertex_count_;
+      for (std::uint32_t i = 0; i < split.slots; ++i) {
+        const std::uint32_t place = slot[i] & ~kLastSlot;
+        if (place != kNoSlot) {
+          indices[place] = vertex;
+          changed[place >> kBlockBits] = 1;
+        }
+        if (slot[i] & kLastSlot) ++vertex;
+      }
+    }
+    slot += split.slots;
+    vertex_count_ += split.vertices;
+    triangle_count_ += split.triangles;
+    if (data.first_placed.empty()) continue;
+    for (std::uint32_t j = data.first_placed[k]; j < data.first_placed[k + 1]; ++j) {
+      const bool full = data.finer[j] == kNone;
+      place(data.placed_vertex[j], full ? data.mesh : data.placed,
+            full ? data.placed_vertex[j] : data.finer[j]);
+    }
+  }
+  slot_cursor_ = static_cast<std::uint32_t>(slot - data.slots.data());
+}
+
+void ProgressiveMeshInstance::collapse_to(std::uint32_t level) {
+  const ProgressiveMeshData& data = model_->data();
+  const std::uint32_t* slot = data.slots.data() + slot_cursor_;
+  std::uint32_t* indices = indices_.data();
+  std::uint8_t* changed = changed_blocks_.data();
+  for (std::uint32_t k = level_; k-- > level;) {
+    const VertexSplit split = data.splits[k];
+    slot -= split.slots;
+    vertex_count_ -= split.vertices;
+    triangle_count_ -= split.triangles;
+    if (split.vertices == 1) {
+      const std::uint32_t target = data.target[vertex_count_];
+      for (std::uint32_t i = 0; i < split.slots; ++i) {
+        const std::uint32_t place = slot[i] & ~kLastSlot;
+        indices[place] = target;
+        changed[place >> kBlockBits] = 1;
+      }
+    } else {
+      std::uint32_t vertex = vertex_count_;
+      for (std::uint32_t i = 0; i < split.slots; ++i) {
+        const std::uint32_t place = slot[i] & ~kLastSlot;
+        if (place != kNoSlot) {
+          indices[place] = data.target[vertex];
+          changed[place >> kBlockBits] = 1;
+        }
+        if (slot[i] & kLastSlot) ++vertex;
+      }
+    }
+    if (data.first_placed.empty()) continue;
+    for (std::uint32_t j = data.first_placed[k]; j < data.first_placed[k + 1]; ++j)
+      place(data.placed_vertex[j], data.placed, j);
+  }
+  slot_cursor_ = static_cast<std::uint32_t>(slot - data.slots.data());
+}
+
+void ProgressiveMeshInstance::update_ranges() {
+  const ProgressiveMeshData& data = model_->data();
+  if (data.triangle_level.empty()) return;
+  for (std::size_t r = 0; r < data.mesh.ranges.size(); ++r) {
+    const MaterialRange& range = data.mesh.ranges[r];
+    const auto first = data.triangle_level.begin() + range.first_triangle;
+    range_counts_[r] = static_cast<std::uint32_t>(
+        std::upper_bound(first, first + range.triangle_count, level_) - first);
+  }
+}
+
+DrawList ProgressiveMeshInstance::draw_list() {
+  const TriangleMesh& mesh = model_->data().mesh;
+  const std::uint32_t finest = model_->finest_level();
+  const float fraction = finest > 0 ? static_cast<float>(level_) / static_cast<float>(finest) : 1;
+  ranges_.clear();
+  if (model_->data().triangle_level.empty()) {
+    const std::uint32_t material = mesh.ranges.empty() ? 0 : mesh.ranges[0].material;
+    ranges_.push_back({0, 3 * triangle_count_, Primitive::kTriangles, material, fraction});
+  } else {
+    for (std::size_t r = 0; r < mesh.ranges.size(); ++r)
+      ranges_.push_back({3 * mesh.ranges[r].first_triangle, 3 * range_counts_[r],
+                         Primitive::kTriangles, mesh.ranges[r].material, fraction});
+  }
+
+  take_blocks(changed_blocks_, kBlockBits, static_cast<std::uint32_t>(indices_.size()),
+              changed_indices_);
+  const TriangleMesh& vertices = this->vertices();
+  take_blocks(changed_vertex_blocks_, kBlockBits,
+              static_cast<std::uint32_t>(vertices.positions.size()), changed_vertices_);
+
+  DrawList list;
+  list.positions = vertices.positions;
+  list.normals = vertices.normals;
+  list.texcoords = vertices.texcoords;
+  list.colors = vertices.colors;
+  list.indices = indices_;
+  list.ranges = ranges_;
+  list.changed_indices = changed_indices_;
+  list.changed_vertices = changed_vertices_;
+  return list;
+}
+
+TriangleMesh ProgressiveMeshInstance::extract() const {
+  const TriangleMesh& full = model_->data().mesh;
+  const TriangleMesh& attributes = vertices();
+  TriangleMesh mesh;
+  const auto prefix = [&](const auto& from, auto& to) {
+    if (!from.empty()) to.assign(from.begin(), from.begin() + vertex_count_);
+  };
+  prefix(attributes.positions, mesh.positions);
+  prefix(attributes.normals, mesh.normals);
+  prefix(attributes.texcoords, mesh.texcoords);
+  prefix(attributes.colors, mesh.colors);
+  mesh.materials = full.materials;
+  mesh.images = full.images;
+
+  if (model_->data().triangle_level.empty()) {
+    mesh.indices.assign(indices_.begin(), indices_.begin() + 3 * std::size_t{triangle_count_});
+    if (!full.ranges.empty() && triangle_count_ > 0)
+      mesh.ranges.push_back({full.ranges[0].material, 0, triangle_count_});
+    return mesh;
+  }
+  for (std::size_t r = 0; r < full.ranges.size(); ++r) {
+    if (range_counts_[r] == 0) continue;
+    const auto first = indices_.begin() + 3 * std::size_t{full.ranges[r].first_triangle};
+    mesh.ranges.push_back({full.ranges[r].material, mesh.triangle_count(), range_counts_[r]});
+    mesh.indices.insert(mesh.indices.end(), first, first + 3 * std::size_t{range_counts_[r]});
+  }
+  return mesh;
+}
+
+}  // namespace varifold
