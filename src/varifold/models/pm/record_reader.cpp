@@ -60,13 +60,15 @@ const char* RecordReader::read_wedges(std::uint32_t count, bool with_flags) {
 }
 
 const char* RecordReader::read_mask(SplitWedge& wedge) {
-  scratch_.clear();
-  state_->surface.free_slots(*record_, wedge.target, scratch_);
+  const auto slots = state_->surface.free_slots(*record_, wedge.target, scratch_);
   wedge.first_moved = static_cast<std::uint32_t>(record_->moved.size());
-  for (std::size_t i = 0; i < scratch_.size() && !bits_->exhausted(); i += 32) {
-    const auto count = static_cast<unsigned>(std::min<std::size_t>(32, scratch_.size() - i));
-    for (std::uint32_t mask = bits_->bits(count); mask != 0; mask &= mask - 1)
-      record_->moved.push_back(scratch_[i + static_cast<unsigned>(std::countr_zero(mask))]);
+  for (std::size_t i = 0; i < slots.size() && !bits_->exhausted(); i += 32) {
+    const auto count = static_cast<unsigned>(std::min<std::size_t>(32, slots.size() - i));
+    for (std::uint32_t mask = bits_->bits(count); mask != 0; mask &= mask - 1) {
+      const std::uint32_t slot = slots[i + static_cast<unsigned>(std::countr_zero(mask))];
+      state_->surface.prefetch(slot);
+      record_->moved.push_back(slot);
+    }
   }
   wedge.end_moved = static_cast<std::uint32_t>(record_->moved.size());
   return wedge.end_moved <= kMaxSlots ? nullptr : "too many corners move in one split";

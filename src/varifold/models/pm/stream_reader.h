@@ -57,6 +57,7 @@ class ProgressiveStreamReader {
   [[nodiscard]] std::uint64_t section_size() const;
   Result<void> read_section(std::span<const std::byte> section);
   Result<void> read_base(std::span<const std::byte> section);
+  void reserve(std::size_t bytes);
   Result<void> read_splits();
   Result<void> check_end();
   Result<void> refuse(Error error);
