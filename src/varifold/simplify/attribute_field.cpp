@@ -1,5 +1,7 @@
 #include <varifold/simplify/attribute_field.h>
 
+#include <algorithm>
+
 namespace varifold {
 
 AttributeField::AttributeField(const TriangleMesh& mesh, const AttributeWeights& weights) {
@@ -19,19 +21,19 @@ AttributeField::AttributeField(const TriangleMesh& mesh, const AttributeWeights&
       for (int k = 0; k < 4; ++k) values_.push_back(weights.color / 255 * mesh.colors[v][k]);
   }
   terms_.resize(values_.size());
+  quadrics_.resize(mesh.vertex_count());
   weights_.assign(mesh.vertex_count(), 0);
 }
 
-Quadric AttributeField::add_face(const std::array<std::uint32_t, 3>& wedges, const Vec3& edge_1,
-                                 const Vec3& edge_2, float weight) {
+void AttributeField::add_face(const std::array<std::uint32_t, 3>& wedges, const Vec3& edge_1,
+                              const Vec3& edge_2, float weight) {
   // The gradient g lies in the plane of the edges, with g.e1 = s1 - s0 and g.e2 = s2 - s0.
-  Quadric gain;
   const float d11 = glm::dot(edge_1, edge_1);
   const float d12 = glm::dot(edge_1, edge_2);
   const float d22 = glm::dot(edge_2, edge_2);
   const float determinant = d11 * d22 - d12 * d12;
   weights_[wedges[0]] += weight;
-  if (determinant <= 1e-6f * d11 * d22) return gain;  // a needle has no reliable gradient
+  if (determinant <= 1e-6f * d11 * d22) return;  // a needle has no reliable gradient
   const Vec3 dual_1 = (d22 * edge_1 - d12 * edge_2) / determinant;
   const Vec3 dual_2 = (d11 * edge_2 - d12 * edge_1) / determinant;
   const float* s0 = values(wedges[0]);
@@ -41,9 +43,8 @@ Quadric AttributeField::add_face(const std::array<std::uint32_t, 3>& wedges, con
   for (int k = 0; k < channels_; ++k) {
     const Vec3 g = (s1[k] - s0[k]) * dual_1 + (s2[k] - s0[k]) * dual_2;
     terms[k].gradient += weight * g;
-    gain.add_plane(g, weight);
+    quadrics_[wedges[0]].add_plane(g, weight);
   }
-  return gain;
 }
 
 float AttributeField::coupling(std::uint32_t wedge, std::uint32_t onto, const Vec3& d) const {
@@ -59,23 +60,26 @@ float AttributeField::coupling(std::uint32_t wedge, std::uint32_t onto, const Ve
   return sum;
 }
 
-Quadric AttributeField::merge(std::uint32_t wedge, std::uint32_t onto, const Vec3& d) {
-  Quadric gain;
+float AttributeField::cost(std::uint32_t wedge, std::uint32_t onto, const Vec3& d) const {
+  return std::max(0.0f, quadrics_[wedge].at(d) + coupling(wedge, onto, d));
+}
+
+void AttributeField::merge(std::uint32_t wedge, std::uint32_t onto, const Vec3& d) {
+  Quadric moved = quadrics_[wedge].moved_by(d);
+  moved.c = std::max(0.0f, moved.c + coupling(wedge, onto, d));
   const float* from_values = values(wedge);
   const float* onto_values = values(onto);
   const Term* terms = &terms_[std::size_t{wedge} * channels_];
   Term* onto_terms = &terms_[std::size_t{onto} * channels_];
   const float weight = weights_[wedge];
-  gain.c = coupling(wedge, onto, d);
   for (int k = 0; k < channels_; ++k) {
     const float change = onto_values[k] - from_values[k];
-    gain.b -= change * terms[k].gradient;
+    moved.b -= change * terms[k].gradient;
     onto_terms[k].gradient += terms[k].gradient;
-    onto_terms[k].offset +=
-        terms[k].offset + glm::dot(terms[k].gradient, d) - weight * change;
+    onto_terms[k].offset += terms[k].offset + glm::dot(terms[k].gradient, d) - weight * change;
   }
+  quadrics_[onto] += moved;
   weights_[onto] += weight;
-  return gain;
 }
 
 float AttributeField::distance_squared(std::uint32_t a, std::uint32_t b) const {
@@ -89,7 +93,7 @@ float AttributeField::distance_squared(std::uint32_t a, std::uint32_t b) const {
 
 std::size_t AttributeField::bytes() const {
   return (values_.capacity() + weights_.capacity()) * sizeof(float) +
-         terms_.capacity() * sizeof(Term);
+         terms_.capacity() * sizeof(Term) + quadrics_.capacity() * sizeof(Quadric);
 }
 
 }  // namespace varifold

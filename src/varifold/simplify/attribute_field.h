@@ -2,8 +2,8 @@
 // simplified surface are from those of the original at the same place.
 //
 // Based on: [Hoppe1999] section 5 (a quadric whose minimum over the attribute is linear in space).
-// Differs: quadrics sit at the wedge and its attribute values, so single precision serves; the part
-//   that depends on position alone is added to the position quadric of the point.
+// Differs: quadrics sit at the wedge and its attribute values, so single precision serves; apart from
+//   the geometric error, which keeps no memory, they gather what they have met.
 #pragma once
 
 #include <array>
@@ -34,17 +34,16 @@ class AttributeField {
   [[nodiscard]] bool empty() const { return channels_ == 0; }
   [[nodiscard]] int channels() const { return channels_; }
 
-  /// The face's linear attribute functions enter the quadrics of one of its corners: `wedge` with
-  /// edges to the two others. Returns what the position quadric of the point gains.
-  Quadric add_face(const std::array<std::uint32_t, 3>& wedges, const Vec3& edge_1,
-                   const Vec3& edge_2, float weight);
+  /// The face's linear attribute functions enter the quadric of one of its corners: `wedge` with
+  /// edges to the two others.
+  void add_face(const std::array<std::uint32_t, 3>& wedges, const Vec3& edge_1,
+                const Vec3& edge_2, float weight);
 
-  /// What the position quadric lacks when `wedge` moves by `d` onto `onto`: 0 if nothing changes.
-  [[nodiscard]] float coupling(std::uint32_t wedge, std::uint32_t onto, const Vec3& d) const;
+  /// The weighted squared attribute error when `wedge` moves by `d` and takes the values of `onto`.
+  [[nodiscard]] float cost(std::uint32_t wedge, std::uint32_t onto, const Vec3& d) const;
 
-  /// Moves the quadric of `wedge` by `d` to the values of `onto` and adds it there. Returns the
-  /// change of b and c that the point's position quadric needs on top of Quadric::moved_by.
-  Quadric merge(std::uint32_t wedge, std::uint32_t onto, const Vec3& d);
+  /// Moves the quadric of `wedge` by `d` to the values of `onto` and adds it there.
+  void merge(std::uint32_t wedge, std::uint32_t onto, const Vec3& d);
 
   /// The squared weighted difference of two wedges.
   [[nodiscard]] float distance_squared(std::uint32_t a, std::uint32_t b) const;
@@ -56,13 +55,15 @@ class AttributeField {
     Vec3 gradient{0};  ///< sum of weight * gradient
     float offset = 0;  ///< sum of weight * (value of the plane at the origin - own value)
   };
+  [[nodiscard]] float coupling(std::uint32_t wedge, std::uint32_t onto, const Vec3& d) const;
   [[nodiscard]] const float* values(std::uint32_t wedge) const {
     return &values_[std::size_t{wedge} * channels_];
   }
 
   int channels_ = 0;
   std::vector<float> values_;
-  std::vector<Term> terms_;
+  std::vector<Quadric> quadrics_;  // per wedge: the part without the values
+  std::vector<Term> terms_;        // per wedge and channel: what couples values and place
   std::vector<float> weights_;
 };
 

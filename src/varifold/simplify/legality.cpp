@@ -66,12 +66,14 @@ float longest_squared(const Vec3& a, const Vec3& b, const Vec3& c) {
   return std::max({glm::dot(a, a), glm::dot(b, b), glm::dot(c, c)});
 }
 
+}  // namespace
+
 // The faces that stay must neither turn too far nor become needles.
-Refusal test_geometry(WorkingSurface& surface, std::uint32_t from, std::uint32_t onto,
-                      const LegalityOptions& options) {
-  const auto ring = surface.ring_span(from);
-  const Vec3 old_apex = surface.points[from].position;
-  const Vec3 new_apex = surface.points[onto].position;
+Refusal test_faces(WorkingSurface& surface, const ApexMove& move, const LegalityOptions& options) {
+  const auto ring = surface.ring_span(move.point);
+  const Vec3 old_apex = surface.points[move.point].position;
+  const Vec3 new_apex = move.position;
+  const std::uint32_t onto = move.partner;
   const float limit = options.min_normal_cosine * options.min_normal_cosine;
   const float shape_limit = options.min_shape * options.min_shape;
   for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -101,17 +103,20 @@ Refusal test_geometry(WorkingSurface& surface, std::uint32_t from, std::uint32_t
   return Refusal::kLegal;
 }
 
-}  // namespace
-
-Refusal test_collapse(WorkingSurface& surface, std::uint32_t from, std::uint32_t onto,
-                      const LegalityOptions& options) {
+Refusal test_connectivity(WorkingSurface& surface, std::uint32_t from, std::uint32_t onto,
+                          const LegalityOptions& options) {
   if (surface.points[onto].ring_size == 0) return Refusal::kTopology;
   if (const Refusal refusal = test_features(surface, from, onto); refusal != Refusal::kLegal)
     return refusal;
-  if (const Refusal refusal = test_topology(surface, from, onto, options);
+  return test_topology(surface, from, onto, options);
+}
+
+Refusal test_collapse(WorkingSurface& surface, std::uint32_t from, std::uint32_t onto,
+                      const LegalityOptions& options) {
+  if (const Refusal refusal = test_connectivity(surface, from, onto, options);
       refusal != Refusal::kLegal)
     return refusal;
-  return test_geometry(surface, from, onto, options);
+  return test_faces(surface, {from, onto, surface.points[onto].position}, options);
 }
 
 }  // namespace varifold

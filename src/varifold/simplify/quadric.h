@@ -2,8 +2,7 @@
 //
 // Based on: [GarlandHeckbert1997] section 5, area-weighted as in [GarlandHeckbert1998].
 // Differs: single precision about the vertex' own position instead of double about one origin. All
-//   planes of a fresh vertex pass through it, so it starts as a plain 3x3 matrix, and moving the
-//   quadric to the target of a collapse yields the error of the collapse as its constant term.
+//   planes of a fresh vertex pass through it, so it starts as a plain 3x3 matrix.
 #pragma once
 
 #include <algorithm>
@@ -22,6 +21,15 @@ struct Quadric {
     const Vec3 wn = weight * n;
     xx += wn.x * n.x, yy += wn.y * n.y, zz += wn.z * n.z;
     xy += wn.x * n.y, xz += wn.x * n.z, yz += wn.y * n.z;
+  }
+
+  /// Adds the plane of a face with the cross product of two of its edges, weighted with a third of
+  /// its area; returns that weight.
+  float add_face(const Vec3& cross) {
+    const float length = glm::length(cross);
+    if (!(length > 0)) return 0;
+    add_plane(cross, 1 / (6 * length));
+    return length / 6;
   }
 
   /// Adds weight * (distance to the origin)^2.

@@ -196,4 +196,30 @@ DetailedMesh build_sequence(const TriangleMesh& mesh, const WorkingSurface& surf
   return SequenceBuilder(mesh, surface, log, step_count).build();
 }
 
+void add_placement(DetailedMesh& detailed, const WorkingSurface& surface,
+                   const PlacementLog& placement, std::size_t step_count) {
+  // The log names wedges of the input, or points; the sequence has vertices of its own.
+  const bool has_wedges = !surface.wedge.first_wedge.empty();
+  std::vector<std::uint32_t> id_of(surface.point_of_vertex.size(), kNone);
+  for (std::uint32_t v = 0; v < detailed.original_vertex.size(); ++v) {
+    const std::uint32_t original = detailed.original_vertex[v];
+    id_of[has_wedges ? original : surface.point_of_vertex[original]] = v;
+  }
+  CollapseSequence& sequence = detailed.sequence;
+  const auto copy = [](const auto& from, std::uint32_t j, auto& to) {
+    if (!from.empty()) to.push_back(from[j]);
+  };
+  sequence.first_placed.assign(1, 0);
+  for (std::size_t step = step_count; step-- > 0;) {
+    for (std::uint32_t j = placement.first[step]; j < placement.first[step + 1]; ++j) {
+      sequence.placed_vertex.push_back(id_of[placement.wedge[j]]);
+      copy(placement.attributes.positions, j, sequence.placed.positions);
+      copy(placement.attributes.normals, j, sequence.placed.normals);
+      copy(placement.attributes.texcoords, j, sequence.placed.texcoords);
+      copy(placement.attributes.colors, j, sequence.placed.colors);
+    }
+    sequence.first_placed.push_back(static_cast<std::uint32_t>(sequence.placed_vertex.size()));
+  }
+}
+
 }  // namespace varifold

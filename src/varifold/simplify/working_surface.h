@@ -10,19 +10,18 @@
 #include <span>
 #include <varifold/base/math.h>
 #include <varifold/mesh/triangle_mesh.h>
-#include <varifold/simplify/quadric.h>
 #include <varifold/simplify/rings.h>
 #include <varifold/simplify/vertex_kind.h>
 #include <vector>
 
 namespace varifold {
 
-/// One cache line of state for each point.
-struct alignas(64) PointState {
+/// State of a point; half a cache line.
+struct alignas(32) PointState {
   Vec3 position{0};
-  float weight = 0;  ///< the area that its quadric has gathered
-  Quadric quadric;
-  std::uint32_t target = kNone;  ///< the best collapse found last
+  float error = 0;                ///< estimate of how far the surface around has moved
+  std::uint32_t target = kNone;   ///< the best collapse found last
+  float cost = 0;                 ///< of that collapse
   std::uint16_t ring_size = 0;
   VertexKind kind = VertexKind::kManifold;
   std::uint8_t flags = 0;
@@ -32,7 +31,7 @@ struct alignas(64) PointState {
   static constexpr std::uint8_t kBlocked = 4;    ///< no legal collapse; waits for a change nearby
   static constexpr std::uint8_t kIrregular = 8;  ///< several fans: its ring is edited the slow way
 };
-static_assert(sizeof(PointState) == 64);
+static_assert(sizeof(PointState) == 32);
 
 /// Room for the ring of most points; longer ones leave {offset, pool} in the first entry.
 struct alignas(64) RingLine {
@@ -108,7 +107,7 @@ struct InputFaults {
   std::uint32_t duplicate_triangles = 0;   ///< the same corners in the same order again
 };
 
-/// Builds points, rings, kinds and quadrics-free state. Triangles that are degenerate on position
+/// Builds points, rings and kinds. Triangles that are degenerate on position
 /// classes, and exact repetitions, get no face. O(n log n) for the Morton sort, else linear.
 [[nodiscard]] WorkingSurface build_surface(const TriangleMesh& mesh, const SurfaceOptions& options,
                                            InputFaults& faults);
