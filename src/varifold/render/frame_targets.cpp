@@ -35,6 +35,17 @@ Result<void> FrameTargets::resize(const TextureSize& new_scene, const TextureSiz
   return {};
 }
 
+Result<void> FrameTargets::add_occlusion() {
+  if (occlusion[0]) return {};
+  for (int i = 0; i < 2; ++i) {
+    occlusion_color[i] = make_texture(GL_R8, {scene_size.width, scene_size.height, 1});
+    occlusion[i] = make_framebuffer();
+    glNamedFramebufferTexture(occlusion[i].name(), GL_COLOR_ATTACHMENT0, occlusion_color[i].name(),
+                              0);
+  }
+  return check_errors("making the occlusion buffers");
+}
+
 void FrameTargets::copy_first_depth() const {
   glBlitNamedFramebuffer(scene.name(), first_depth_target.name(), 0, 0, scene_size.width,
                          scene_size.height, 0, 0, scene_size.width, scene_size.height,

@@ -21,7 +21,7 @@ enum class ColorMode {
   kPlain,        ///< DrawStyle::plain_color for all
   kMaterial,     ///< DrawStyle::material_colors by the material of each range
   kVertexColor,  ///< the vertex colours of the list; plain where it has none
-  kLevel,        ///< a ramp from blue (coarse) to red (fine) by the level of each range
+  kLevel,        ///< level_color (colors.h) of the level of each range
 };
 
 enum class BackFaces {
