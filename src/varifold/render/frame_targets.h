@@ -16,8 +16,9 @@ struct FrameTargets {
   Framebuffer scene;
   Texture first_depth;
   Framebuffer first_depth_target;
-  Texture occlusion_color[2];
-  Framebuffer occlusion[2];  ///< as computed, and blurred; only where it is asked for
+  // Only where they are asked for.
+  Texture raw_occlusion, blurred_occlusion;
+  Framebuffer raw_occlusion_target, blurred_occlusion_target;
   Texture picture_color;
   Framebuffer picture;
 

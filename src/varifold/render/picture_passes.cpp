@@ -55,14 +55,14 @@ void PicturePasses::run_occlusion(const FrameTargets& targets, const Camera& cam
   set_uniform(occlusion, "half_tangent", Vec2(tangent * camera.aspect(), tangent));
   set_uniform(occlusion, "radius", kOcclusionRadius);
   glBindTextureUnit(0, targets.scene_depth.name());
-  draw(occlusion, targets.occlusion[0], targets.scene_size);
+  draw(occlusion, targets.raw_occlusion_target, targets.scene_size);
 
   const Program& blur = multisample ? blur_.multiple : blur_.single;
   set_uniform(blur, "depths", 0);
   set_uniform(blur, "occlusion", 1);
   set_uniform(blur, "depth_range", depth_range);
-  glBindTextureUnit(1, targets.occlusion_color[0].name());
-  draw(blur, targets.occlusion[1], targets.scene_size);
+  glBindTextureUnit(1, targets.raw_occlusion.name());
+  draw(blur, targets.blurred_occlusion_target, targets.scene_size);
 }
 
 void PicturePasses::run_resolve(const FrameTargets& targets, const PictureOptions& options) const {
@@ -77,7 +77,7 @@ void PicturePasses::run_resolve(const FrameTargets& targets, const PictureOption
   set_uniform(program, "background_top", options.background_top);
   set_uniform(program, "background_bottom", options.background_bottom);
   glBindTextureUnit(0, targets.scene_color.name());
-  if (options.ambient_occlusion) glBindTextureUnit(1, targets.occlusion_color[1].name());
+  if (options.ambient_occlusion) glBindTextureUnit(1, targets.blurred_occlusion.name());
   draw(program, targets.picture, targets.picture_size);
 }
 

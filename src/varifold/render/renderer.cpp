@@ -111,8 +111,9 @@ void Renderer::Impl::draw_ranges(const gl::Program& program, const DrawList& lis
     for (; i < list.ranges.size() && same_batch(first, list.ranges[i], style.color_mode); ++i) {
       const DrawRange& range = list.ranges[i];
       batch_counts.push_back(static_cast<GLsizei>(range.index_count));
-      batch_offsets.push_back(reinterpret_cast<const void*>(
-          static_cast<std::uintptr_t>(range.first_index) * sizeof(std::uint32_t)));
+      const auto offset = std::uintptr_t{range.first_index} * sizeof(std::uint32_t);
+      // NOLINTNEXTLINE(performance-no-int-to-ptr): an offset into the buffer, says OpenGL
+      batch_offsets.push_back(reinterpret_cast<const void*>(offset));
     }
     gl::set_uniform(program, "base_color", linear_base_color(first, style));
     glMultiDrawElements(first.primitive == Primitive::kTriangles ? GL_TRIANGLES : GL_TRIANGLE_STRIP,
