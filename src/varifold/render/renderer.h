@@ -58,7 +58,7 @@ struct PictureOptions {
   bool ambient_occlusion = false;
 };
 
-/// The smallest and largest picture side that can be asked for, supersampling included.
+/// The longest picture side that can be asked for, in pixels, supersampling included.
 inline constexpr int kMaxFrameSize = 16384;
 
 /// A draw list whose buffers a renderer keeps on the graphics card.
