@@ -8,7 +8,54 @@
 #include <algorithm>
 #include <optional>
 
+#if defined(__SANITIZE_THREAD__)
+#define VARIFOLD_THREAD_SANITIZER 1
+#elif defined(__has_feature)
+#if __has_feature(thread_sanitizer)
+#define VARIFOLD_THREAD_SANITIZER 1
+#endif
+#endif
+
+#ifdef VARIFOLD_THREAD_SANITIZER
+#include <atomic>
+#include <thread>
+#include <vector>
+#endif
+
 namespace varifold {
+
+namespace {
+
+/// Runs piece(0) .. piece(count - 1) on the pool.
+template <class Piece>
+void run_pieces(int threads, std::size_t count, const Piece& piece) {
+#ifdef VARIFOLD_THREAD_SANITIZER
+  // The sanitizer cannot see how the system's oneTBB synchronises; plain threads it can.
+  std::atomic<std::size_t> next{0};
+  std::vector<std::thread> workers;
+  for (int i = 0; i < threads; ++i)
+    workers.emplace_back([&] {
+      for (std::size_t p = next++; p < count; p = next++) piece(p);
+    });
+  for (std::thread& worker : workers) worker.join();
+#else
+  // oneTBB caps its workers at the hardware's; more are given where they are asked for.
+  std::optional<tbb::global_control> raised;
+  if (threads > hardware_threads())
+    raised.emplace(tbb::global_control::max_allowed_parallelism, threads);
+  tbb::task_arena arena(threads);
+  arena.execute([&] {
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, count, 1),
+        [&](const tbb::blocked_range<std::size_t>& range) {
+          for (std::size_t p = range.begin(); p < range.end(); ++p) piece(p);
+        },
+        tbb::simple_partitioner());
+  });
+#endif
+}
+
+}  // namespace
 
 int hardware_threads() { return std::max(1, tbb::info::default_concurrency()); }
 
@@ -21,20 +68,8 @@ void parallel_for(int threads, std::size_t count, std::size_t grain,
     for (std::size_t i = 0; i < pieces; ++i) body(i * grain, std::min(count, (i + 1) * grain));
     return;
   }
-  // oneTBB caps its workers at the hardware's; more are given where they are asked for.
-  std::optional<tbb::global_control> raised;
-  if (threads > hardware_threads())
-    raised.emplace(tbb::global_control::max_allowed_parallelism, threads);
-  tbb::task_arena arena(threads);
-  arena.execute([&] {
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, pieces, 1),
-        [&](const tbb::blocked_range<std::size_t>& range) {
-          for (std::size_t i = range.begin(); i < range.end(); ++i)
-            body(i * grain, std::min(count, (i + 1) * grain));
-        },
-        tbb::simple_partitioner());
-  });
+  run_pieces(threads, pieces,
+             [&](std::size_t i) { body(i * grain, std::min(count, (i + 1) * grain)); });
 }
 
 }  // namespace varifold

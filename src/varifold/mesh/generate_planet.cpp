@@ -149,7 +149,7 @@ class Relief {
     // Under the sea the ground is flatter; inland there are ranges of mountains.
     if (base < 0) return std::max(-1.0, 0.3 * base);
     const double inland = std::min(1.0, 3 * base);
-    return std::min(1.0, 0.6 * base + 0.45 * inland * std::max(0.0, sum.ridged));
+    return std::min(1.0, 0.8 * base + 0.5 * inland * std::max(0.0, sum.ridged));
   }
 
  private:

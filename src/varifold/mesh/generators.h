@@ -25,7 +25,7 @@ struct GeneratorOptions {
 inline constexpr std::uint32_t kMaxGeneratedTriangles = 200'000'000;
 
 struct PlanetOptions : GeneratorOptions {
-  float relief = 0.12f;  ///< half the range of heights, as a part of the radius 1
+  float relief = 0.12f;  ///< bound of the heights, up and down; the mean radius is about 1
   bool colors_by_height = false;
 };
 
@@ -36,7 +36,7 @@ struct PlanetOptions : GeneratorOptions {
 [[nodiscard]] TriangleMesh planet(const PlanetOptions& options = {});
 
 struct TerrainOptions : GeneratorOptions {
-  float relief = 0.15f;  ///< half the range of heights, as a part of the side
+  float relief = 0.15f;  ///< half of the bound of the heights, up and down; the side is 2
 };
 
 /// A square height field over [-1, 1]^2 with hills and ridges; open; texture coordinates.

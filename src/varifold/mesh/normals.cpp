@@ -1,5 +1,6 @@
 // Based on: [Thürmer and Wüthrich 1998], weights by angle.
 #include <varifold/base/angle.h>
+#include <varifold/base/disjoint_sets.h>
 #include <varifold/base/parallel.h>
 #include <varifold/mesh/normals.h>
 #include <algorithm>
@@ -57,8 +58,7 @@ class SmoothGroups {
   /// Returns, for each of the triangles, the position in the list of the first of its group.
   const std::vector<std::uint32_t>& find(std::span<const std::uint32_t> triangles,
                                          std::uint32_t c) {
-    group_.resize(triangles.size());
-    std::iota(group_.begin(), group_.end(), 0u);
+    sets_.reset(triangles.size());
 
     // Sort the spokes by the class at their far end: the two sides of an edge become neighbours.
     spokes_.clear();
@@ -75,9 +75,10 @@ class SmoothGroups {
       if (end - begin != 2) continue;
       const std::uint32_t a = spokes_[begin].second;
       const std::uint32_t b = spokes_[begin + 1].second;
-      if (is_smooth(triangles[a], triangles[b])) unite(a, b);
+      if (is_smooth(triangles[a], triangles[b])) sets_.unite(a, b);
     }
-    for (std::uint32_t i = 0; i < group_.size(); ++i) group_[i] = root(i);
+    group_.resize(triangles.size());
+    for (std::uint32_t i = 0; i < group_.size(); ++i) group_[i] = sets_.find(i);
     return group_;
   }
 
@@ -87,20 +88,10 @@ class SmoothGroups {
     const DVec3 b = normalize_double(area_vector(mesh_, u));
     return glm::dot(a, b) >= least_cosine_;
   }
-  std::uint32_t root(std::uint32_t x) {
-    while (group_[x] != x) x = group_[x] = group_[group_[x]];
-    return x;
-  }
-  void unite(std::uint32_t a, std::uint32_t b) {
-    a = root(a);
-    b = root(b);
-    if (a < b) group_[b] = a;
-    if (b < a) group_[a] = b;
-  }
-
   const TriangleMesh& mesh_;
   const WeldMap& weld_;
   double least_cosine_;
+  DisjointSets sets_;
   std::vector<std::uint32_t> group_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> spokes_;
 };

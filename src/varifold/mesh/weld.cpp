@@ -1,9 +1,8 @@
+#include <varifold/base/disjoint_sets.h>
 #include <varifold/mesh/weld.h>
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
-#include <numeric>
 
 namespace varifold {
 
@@ -35,27 +34,6 @@ struct PositionBits {
 std::size_t table_size(std::size_t count) {
   return std::bit_ceil(std::max<std::size_t>(2 * count, 16));
 }
-
-/// Union-find whose roots are the smallest members, so that the numbering needs no second sort.
-class DisjointSets {
- public:
-  explicit DisjointSets(std::uint32_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0u);
-  }
-  std::uint32_t find(std::uint32_t x) {
-    while (parent_[x] != x) x = parent_[x] = parent_[parent_[x]];
-    return x;
-  }
-  void unite(std::uint32_t a, std::uint32_t b) {
-    a = find(a);
-    b = find(b);
-    if (a < b) parent_[b] = a;
-    if (b < a) parent_[a] = b;
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 /// A cell of the grid. Coordinates are kept as whole doubles: where they exceed 2^53 the spacing
 /// of floats is far above the cell size, so that only equal positions can be near each other.
