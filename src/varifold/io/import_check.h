@@ -18,11 +18,15 @@ namespace varifold {
 /// Error kInvalidInput naming the first vertex whose position is not finite. O(vertices).
 [[nodiscard]] Result<void> check_positions(const TriangleMesh& mesh);
 
+/// Gives the vertices that are marked the unit normals of their triangles, weighted by area; zero
+/// where these have none. Positions and indices must be valid. O(n).
+void fill_missing_normals(TriangleMesh& mesh, const std::vector<bool>& is_missing);
+
 /// Appends "<count> <what>" to the warnings unless the count is 0; `what` is in the plural.
 void warn_count(ImportedMesh& imported, std::size_t count, std::string_view what);
 
 /// Text of a file as it may stand in a message: one line of at most 60 printable characters, in
 /// quotes.
-[[nodiscard]] std::string quoted(std::string_view text);
+[[nodiscard]] std::string in_quotes(std::string_view text);
 
 }  // namespace varifold

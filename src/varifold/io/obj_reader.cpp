@@ -84,7 +84,7 @@ class ObjReader {
     } else if (keyword == "p" || keyword == "l") {
       ++points_and_lines_;
     } else if (keyword != "g" && keyword != "o" && keyword != "s") {
-      if (unknown_count_++ == 0) unknown_ = quoted(keyword);
+      if (unknown_count_++ == 0) unknown_ = in_quotes(keyword);
       known = false;
     }
     is_obj_ = is_obj_ || known;
@@ -115,7 +115,7 @@ class ObjReader {
     while (count < values.size() && !line_ends()) {
       if (!text_.float_here(values[count])) {
         TextScanner ahead = text_;
-        return bad("expected a number instead of " + quoted(ahead.token_in_line()));
+        return bad("expected a number instead of " + in_quotes(ahead.token_in_line()));
       }
       ++count;
     }
@@ -197,7 +197,7 @@ class ObjReader {
     }
     if (!at_corner_end()) {
       TextScanner ahead = text_;
-      return bad("unexpected " + quoted(ahead.token_in_line()) + " in a face");
+      return bad("unexpected " + in_quotes(ahead.token_in_line()) + " in a face");
     }
     return {};
   }
@@ -210,7 +210,7 @@ class ObjReader {
     std::int64_t value = 0;
     if (!text_.digits_here(value)) {
       TextScanner ahead = text_;
-      return bad("expected an index instead of " + quoted(ahead.token_in_line()));
+      return bad("expected an index instead of " + in_quotes(ahead.token_in_line()));
     }
     const auto count = static_cast<std::int64_t>(list.values.size());
     // Negative indices count back from the newest entry, -1.
@@ -283,6 +283,9 @@ class ObjReader {
       mesh_.colors = std::move(colors_);
     }
     polygons_.cut_concave();
+    const auto without_normal =
+        static_cast<std::size_t>(std::count(has_no_normal_.begin(), has_no_normal_.end(), true));
+    if (without_normal > 0) fill_missing_normals(mesh_, has_no_normal_);
     set_materials();
 
     ImportedMesh imported;
@@ -291,7 +294,7 @@ class ObjReader {
     polygons_.warn(imported);
     warn_count(imported, unused_, "vertices that no face uses were dropped");
     warn_count(imported, without_texcoord_, "vertices without texture coordinate got (0, 0)");
-    warn_count(imported, without_normal_, "vertices without normal got (0, 0, 0)");
+    warn_count(imported, without_normal, "vertices without normal got that of their triangles");
     warn_count(imported, points_and_lines_, "point and line elements were dropped");
     warn_count(imported, unknown_count_, "lines were not understood, the first being " + unknown_);
     return finish_import(std::move(imported));
@@ -322,7 +325,7 @@ class ObjReader {
       if (normals_.largest > 0) {
         const bool given = wedge.normal != kNone;
         mesh_.normals.push_back(given ? normals_.values[wedge.normal] : Vec3(0));
-        without_normal_ += given ? 0 : 1;
+        has_no_normal_.push_back(!given);
       }
     }
     unused_ = static_cast<std::size_t>(std::count(is_used.begin(), is_used.end(), false));
@@ -369,7 +372,7 @@ class ObjReader {
   std::size_t missing_libraries_ = 0;
   std::size_t unused_ = 0;
   std::size_t without_texcoord_ = 0;
-  std::size_t without_normal_ = 0;
+  std::vector<bool> has_no_normal_;
   std::string unknown_;
 };
 

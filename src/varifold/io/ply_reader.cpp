@@ -49,7 +49,7 @@ class BodyReader {
   }
   [[nodiscard]] tl::unexpected<Error> ends_in(const Element& element, std::uint64_t row) const {
     return bad(fmt::format("the file ends in row {} of the {} rows of element {}", row,
-                           element.count, quoted(element.name)));
+                           element.count, in_quotes(element.name)));
   }
 
   Result<void> read_element(const Element& element) {
@@ -62,7 +62,7 @@ class BodyReader {
     if (list == kNone) list = element.find("vertex_index");
     if (list == kNone || !element.properties[list].is_list) {
       if (element.count > 0)
-        warnings_.push_back("element " + quoted(element.name) + " has no list 'vertex_indices'");
+        warnings_.push_back("element " + in_quotes(element.name) + " has no list 'vertex_indices'");
       return skip_rows(element);
     }
     if (ply::is_float(element.properties[list].type))
@@ -82,7 +82,7 @@ class BodyReader {
     const std::uint64_t left = is_ascii() ? text_.remaining() + 1 : file_.size() - at_;
     if (element.count > left / least)
       return bad(fmt::format("element {} has {} rows, but there are only {} bytes left",
-                             quoted(element.name), element.count, left - (is_ascii() ? 1 : 0)));
+                             in_quotes(element.name), element.count, left - (is_ascii() ? 1 : 0)));
     if (element.name == "vertex" && element.count >= kNone)
       return fail(ErrorKind::kUnsupported, "more vertices than 32 bits can count");
     return {};
@@ -312,7 +312,7 @@ class BodyReader {
   tl::unexpected<Error> bad_token(const Element& element, std::uint64_t row) {
     if (text_.at_end()) return ends_in(element, row);
     TextScanner rest = text_;
-    return bad("expected a number instead of " + quoted(rest.token()));
+    return bad("expected a number instead of " + in_quotes(rest.token()));
   }
 
   // --- the end ---
