@@ -23,10 +23,35 @@ std::uint32_t count_common(std::span<const RingEntry> a, std::span<const RingEnt
   return common;
 }
 
+// Two plain rings: the edge has the neighbours before and after `onto` as its apexes.
+Refusal test_plain_topology(WorkingSurface& surface, std::uint32_t from, std::uint32_t onto,
+                            const LegalityOptions& options) {
+  const auto ring = surface.ring_span(from);
+  const auto onto_ring = surface.ring_span(onto);
+  const std::size_t size = ring.size();
+  std::size_t at = 0;
+  while (at < size && ring[at].neighbor != onto) ++at;
+  if (at == size) return Refusal::kTopology;
+  const PointState& a = surface.points[ring[at + 1 == size ? 0 : at + 1].neighbor];
+  const PointState& b = surface.points[ring[at == 0 ? size - 1 : at - 1].neighbor];
+  // A closed ring of three would become two faces back to back.
+  if ((a.ring_size <= 3 && a.kind == VertexKind::kManifold) ||
+      (b.ring_size <= 3 && b.kind == VertexKind::kManifold))
+    return Refusal::kTopology;
+  if (count_common(ring, onto_ring) != 2) return Refusal::kTopology;
+  const std::size_t valence = size + onto_ring.size() - 4;
+  return valence <= std::max<std::size_t>(options.max_valence, onto_ring.size())
+             ? Refusal::kLegal
+             : Refusal::kValence;
+}
+
 // The third corners of the faces on the edge must be the only common neighbours, and must keep a
 // neighbourhood of their own.
 Refusal test_topology(WorkingSurface& surface, std::uint32_t from, std::uint32_t onto,
                       const LegalityOptions& options) {
+  if (surface.points[from].kind == VertexKind::kManifold &&
+      !((surface.points[from].flags | surface.points[onto].flags) & PointState::kIrregular))
+    return test_plain_topology(surface, from, onto, options);
   const auto ring = surface.ring_span(from);
   const auto onto_ring = surface.ring_span(onto);
   std::uint32_t edge_faces = 0;

@@ -14,6 +14,11 @@ namespace {
 
 constexpr std::uint32_t kReportEvery = 8192;
 
+struct NoPrefetch {
+  void later(std::uint32_t) const {}
+  void soon(std::uint32_t) const {}
+};
+
 class PlacementCollapser {
  public:
   PlacementCollapser(WorkingSurface& surface, const TriangleMesh& mesh,
@@ -33,9 +38,8 @@ class PlacementCollapser {
     const std::uint32_t all_faces = std::max(1u, surface_.face_count);
     for (std::uint32_t p = 0; p < surface_.point_count(); ++p) update_quadric(p);
     for (std::uint32_t p = 0; p < surface_.point_count(); ++p) queue_best(p);
-    const auto no_prefetch = [](std::uint32_t) {};
     while (surface_.face_count > options_.target_faces) {
-      const std::uint32_t point = queue_.pop(BucketQueue::kBucketCount, no_prefetch);
+      const std::uint32_t point = queue_.pop(BucketQueue::kBucketCount, NoPrefetch{});
       if (point == kNone) break;
       if (surface_.points[point].flags & PointState::kDead) continue;
       if (bucket_[point] > queue_.current()) continue;

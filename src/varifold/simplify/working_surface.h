@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <span>
+#include <varifold/base/large_vector.h>
 #include <varifold/base/math.h>
 #include <varifold/mesh/triangle_mesh.h>
 #include <varifold/simplify/rings.h>
@@ -21,7 +22,7 @@ struct alignas(32) PointState {
   Vec3 position{0};
   float error = 0;                ///< estimate of how far the surface around has moved
   std::uint32_t target = kNone;   ///< the best collapse found last
-  float cost = 0;                 ///< of that collapse
+  float step = 0;                 ///< estimate of the distance that it would move the surface
   std::uint16_t ring_size = 0;
   VertexKind kind = VertexKind::kManifold;
   std::uint8_t flags = 0;
@@ -62,8 +63,8 @@ struct SurfaceOptions {
 
 class WorkingSurface {
  public:
-  std::vector<PointState> points;
-  std::vector<RingLine> lines;
+  LargeVector<PointState> points;
+  LargeVector<RingLine> lines;
   std::vector<RingPool> pools;
   WedgeTables wedge;
   std::vector<std::uint32_t> point_of_vertex;        ///< kNone for unused vertices
@@ -80,6 +81,9 @@ class WorkingSurface {
     RingLine& line = lines[point];
     if (points[point].ring_size <= RingLine::kCapacity) return line.entries;
     return pools[line.entries[0].face].at(line.entries[0].neighbor);
+  }
+  [[nodiscard]] const RingEntry* ring(std::uint32_t point) const {
+    return const_cast<WorkingSurface*>(this)->ring(point);
   }
   [[nodiscard]] std::span<RingEntry> ring_span(std::uint32_t point) {
     return {ring(point), points[point].ring_size};
