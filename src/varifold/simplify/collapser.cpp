@@ -50,10 +50,8 @@ bool Collapser::leaves_cell(const Cell& cell, std::uint32_t point) {
 
 float Collapser::attribute_cost(std::uint32_t point, std::uint32_t onto, const Vec3& d) {
   const WedgeTables& wedge = surface_.wedge;
-  const auto from_wedges = wedge.of_point(point);
-  const auto onto_wedges = wedge.of_point(onto);
-  if (from_wedges.size() == 1 && onto_wedges.size() == 1)
-    return attributes_->cost(from_wedges[0], onto_wedges[0], d);
+  if (wedge.count_of(point) == 1 && wedge.count_of(onto) == 1)
+    return attributes_->cost(wedge.first_of(point), wedge.first_of(onto), d);
   // The wedges that meet along the edge; the others are matched when it collapses.
   float sum = 0;
   std::uint32_t previous = kNone;
@@ -61,8 +59,8 @@ float Collapser::attribute_cost(std::uint32_t point, std::uint32_t onto, const V
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const std::uint32_t next = ring[i + 1 == ring.size() ? 0 : i + 1].neighbor;
     if (ring[i].face == kNone || (ring[i].neighbor != onto && next != onto)) continue;
-    const std::uint32_t w = corner_wedge(surface_, ring[i].face, point);
-    if (w != previous) sum += attributes_->cost(w, corner_wedge(surface_, ring[i].face, onto), d);
+    const std::uint32_t w = wedge.at_corner(ring[i].face, point);
+    if (w != previous) sum += attributes_->cost(w, wedge.at_corner(ring[i].face, onto), d);
     previous = w;
   }
   return sum;
@@ -175,7 +173,8 @@ void Collapser::try_others(Cell& cell, std::uint32_t point) {
 
 Refusal Collapser::test(Cell& cell, std::uint32_t from, std::uint32_t onto) {
   const Refusal refusal = test_collapse(surface_, from, onto, options_.legality);
-  if (refusal != Refusal::kLegal || surface_.wedge.corners.empty()) return refusal;
+  if (refusal != Refusal::kLegal || (!attributes_ && !surface_.wedge.has_seams()))
+    return refusal;
   RingMerger merger(surface_, cell.scratch);
   return merger.match_wedges(attributes_, from, onto) ? Refusal::kLegal : Refusal::kSeam;
 }

@@ -26,9 +26,8 @@ class PlacementCollapser {
       : surface_(surface),
         options_(options),
         placement_(placement),
-        merger_(surface, scratch_),
-        attributes_(mesh) {
-    attributes_.indices.clear();
+        merger_(surface, scratch_) {
+    gather_attributes(mesh);
     bucket_.assign(surface.point_count(), kNone);
     quadrics_.resize(surface.point_count());
     placement_.first.push_back(0);
@@ -154,19 +153,24 @@ class PlacementCollapser {
     const float t =
         length > 0 ? std::clamp(glm::dot(position - start, edge) / length, 0.0f, 1.0f) : 1.0f;
     const Vec3 in_model = Vec3(DVec3(position) / surface_.scale + surface_.center);
-    if (surface_.wedge.first_wedge.empty()) {
-      placement_.wedge.push_back(onto);
-      placement_.attributes.positions.push_back(in_model);
-    } else {
-      for (const std::uint32_t wedge : surface_.wedge.of_point(onto)) {
-        const auto& moved_onto = scratch_.moved_onto;
-        const auto found = std::find(moved_onto.begin(), moved_onto.end(), wedge);
-        if (found != moved_onto.end())
-          blend_attributes(scratch_.moved_from[found - moved_onto.begin()], wedge, t);
-        push_attributes(wedge, in_model);
-      }
+    const std::uint32_t first = surface_.wedge.first_of(onto);
+    for (std::uint32_t wedge = first; wedge < first + surface_.wedge.count_of(onto); ++wedge) {
+      const auto& moved_onto = scratch_.moved_onto;
+      const auto found = std::find(moved_onto.begin(), moved_onto.end(), wedge);
+      if (found != moved_onto.end())
+        blend_attributes(scratch_.moved_from[found - moved_onto.begin()], wedge, t);
+      push_attributes(wedge, in_model);
     }
     placement_.first.push_back(static_cast<std::uint32_t>(placement_.wedge.size()));
+  }
+
+  // The attributes of every wedge; without wedge tables there are none.
+  void gather_attributes(const TriangleMesh& mesh) {
+    for (const std::uint32_t v : surface_.wedge.vertex_of) {
+      if (mesh.has_normals()) attributes_.normals.push_back(mesh.normals[v]);
+      if (mesh.has_texcoords()) attributes_.texcoords.push_back(mesh.texcoords[v]);
+      if (mesh.has_colors()) attributes_.colors.push_back(mesh.colors[v]);
+    }
   }
 
   void blend_attributes(std::uint32_t from, std::uint32_t onto, float t) {

@@ -1,3 +1,4 @@
+#include <varifold/base/parallel.h>
 #include <varifold/simplify/point_quadric.h>
 
 #include <cmath>
@@ -138,21 +139,24 @@ PointQuadric point_quadric(WorkingSurface& surface, std::uint32_t point,
   return point_quadric(surface, point, options, offsets);
 }
 
-void add_faces_to_attributes(WorkingSurface& surface, AttributeField& attributes) {
-  for (std::uint32_t point = 0; point < surface.point_count(); ++point) {
-    const auto ring = surface.ring_span(point);
-    const Vec3 origin = surface.points[point].position;
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      if (ring[i].face == kNone) continue;
-      const std::uint32_t next = ring[i + 1 == ring.size() ? 0 : i + 1].neighbor;
-      const Vec3 edge_1 = surface.points[ring[i].neighbor].position - origin;
-      const Vec3 edge_2 = surface.points[next].position - origin;
-      attributes.add_face({corner_wedge(surface, ring[i].face, point),
-                           corner_wedge(surface, ring[i].face, ring[i].neighbor),
-                           corner_wedge(surface, ring[i].face, next)},
-                          edge_1, edge_2, glm::length(glm::cross(edge_1, edge_2)) / 6);
+void add_faces_to_attributes(WorkingSurface& surface, AttributeField& attributes, int threads) {
+  parallel_for(threads, surface.point_count(), 4096, [&](std::size_t begin, std::size_t end) {
+    for (auto point = static_cast<std::uint32_t>(begin); point < end; ++point) {
+      const auto ring = surface.ring_span(point);
+      const Vec3 origin = surface.points[point].position;
+      for (std::size_t i = 0; i < ring.size(); ++i) {
+        if (ring[i].face == kNone) continue;
+        const std::uint32_t neighbor = ring[i].neighbor;
+        const std::uint32_t next = ring[i + 1 == ring.size() ? 0 : i + 1].neighbor;
+        const auto wedge_at = [&](std::uint32_t p) {
+          return surface.wedge.has_seams() ? surface.wedge.at_corner(ring[i].face, p) : p;
+        };
+        attributes.add_face({wedge_at(point), wedge_at(neighbor), wedge_at(next)},
+                            surface.points[neighbor].position - origin,
+                            surface.points[next].position - origin);
+      }
     }
-  }
+  });
 }
 
 }  // namespace varifold

@@ -66,6 +66,6 @@ class RingOffsets {
                                          const QuadricOptions& options);
 
 /// Enters all faces into the attribute quadrics of their corners. O(n).
-void add_faces_to_attributes(WorkingSurface& surface, AttributeField& attributes);
+void add_faces_to_attributes(WorkingSurface& surface, AttributeField& attributes, int threads);
 
 }  // namespace varifold

@@ -13,6 +13,7 @@
 #include <varifold/mesh/triangle_mesh.h>
 #include <varifold/simplify/rings.h>
 #include <varifold/simplify/vertex_kind.h>
+#include <varifold/simplify/wedge_tables.h>
 #include <vector>
 
 namespace varifold {
@@ -40,22 +41,8 @@ struct alignas(64) RingLine {
   RingEntry entries[kCapacity];
 };
 
-/// Wedges and corners, present where the mesh has seams or where attributes are to be kept.
-struct WedgeTables {
-  std::vector<std::uint32_t> corners;      ///< three wedges per face, updated by collapses
-  std::vector<std::uint32_t> group_of;     ///< per wedge: the wedge that stands for its chart side
-  std::vector<std::uint32_t> first_wedge;  ///< per point: range in `wedges`; one more at the end
-  std::vector<std::uint32_t> wedges;       ///< wedges sorted by point
-  std::vector<std::uint32_t> material_of;  ///< per face; empty where there is one material
-  std::vector<std::uint32_t> same_as;      ///< per vertex: the first wedge with equal attributes
-  std::vector<std::uint32_t> target;       ///< per wedge, once its point has collapsed
-  [[nodiscard]] std::span<const std::uint32_t> of_point(std::uint32_t point) const {
-    return {wedges.data() + first_wedge[point], first_wedge[point + 1] - first_wedge[point]};
-  }
-};
-
 struct SurfaceOptions {
-  bool with_wedges = false;  ///< make the wedge tables
+  bool with_wedges = false;  ///< attributes and materials matter: make the wedge tables
   int threads = 0;           ///< 0 = all
   /// Points in a cell (collapse_rounds.h), and so in a ring pool.
   std::uint32_t points_per_cell = 16384;
