@@ -234,12 +234,7 @@ class GltfReader {
 
   static Color to_color(const float* values, unsigned components) {
     Color color = kWhite;
-    for (unsigned i = 0; i < components; ++i) {
-      const float scaled = values[i] * 255 + 0.5f;
-      color[static_cast<int>(i)] = scaled >= 255 ? 255
-                                   : scaled > 0  ? static_cast<std::uint8_t>(scaled)
-                                                 : 0;
-    }
+    for (unsigned i = 0; i < components; ++i) color[static_cast<int>(i)] = color_byte(values[i]);
     return color;
   }
 

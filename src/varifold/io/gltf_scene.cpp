@@ -21,9 +21,8 @@ glm::dmat4 local_transform(const JsonElement& node) {
   std::array<double, 16> numbers{};
   glm::dmat4 m(1);
   if (node.numbers("matrix", numbers)) {
-    for (int column = 0; column < 4; ++column)
-      for (int row = 0; row < 4; ++row)
-        m[column][row] = numbers[static_cast<std::size_t>(4 * column + row)];
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      m[static_cast<int>(i / 4)][static_cast<int>(i % 4)] = numbers[i];
     return m;
   }
   std::array<double, 4> quaternion{0, 0, 0, 1};

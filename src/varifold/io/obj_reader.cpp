@@ -139,12 +139,8 @@ class ObjReader {
     // Six numbers: x y z r g b. Seven: colours with alpha.
     if (colors_.empty()) colors_.assign(positions_.values.size() - 1, Color(255, 255, 255, 255));
     if (*count == 6) numbers[6] = 1;
-    Color color;
-    for (int i = 0; i < 4; ++i) {
-      const float scaled = numbers[static_cast<std::size_t>(3 + i)] * 255 + 0.5f;
-      color[i] = scaled >= 255 ? 255 : scaled > 0 ? static_cast<std::uint8_t>(scaled) : 0;
-    }
-    colors_.push_back(color);
+    colors_.emplace_back(color_byte(numbers[3]), color_byte(numbers[4]), color_byte(numbers[5]),
+                         color_byte(numbers[6]));
     return {};
   }
 

@@ -67,8 +67,8 @@ void bind_floats(const std::array<std::uint32_t, kCount>& properties, std::size_
 }
 
 float color_scale(Type type) {
-  if (is_float(type)) return 255;
-  return type == Type::kUint16 ? 255.0f / 65535.0f : 1;
+  if (is_float(type)) return 1;
+  return type == Type::kUint16 ? 1 / 65535.0f : 1 / 255.0f;
 }
 
 void bind_colors(const Element& element, TriangleMesh& mesh, std::vector<Column>& columns) {

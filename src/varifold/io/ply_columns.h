@@ -2,6 +2,7 @@
 #pragma once
 
 #include <varifold/base/result.h>
+#include <varifold/io/import_check.h>
 #include <varifold/io/ply_header.h>
 #include <varifold/mesh/triangle_mesh.h>
 #include <array>
@@ -20,16 +21,13 @@ struct Column {
   float* floats = nullptr;
   std::uint8_t* bytes = nullptr;
   std::size_t stride = 0;
-  float scale = 1;  ///< of colours: to 255
+  float scale = 1;  ///< of colours: to [0, 1]
 
   void store(std::size_t row, float value) const {
-    if (floats) {
+    if (floats)
       floats[row * stride] = value;
-      return;
-    }
-    const float scaled = value * scale + 0.5f;
-    // A value that is not a number fails both comparisons and becomes 0.
-    bytes[row * stride] = scaled >= 255 ? 255 : scaled > 0 ? static_cast<std::uint8_t>(scaled) : 0;
+    else
+      bytes[row * stride] = color_byte(value * scale);
   }
 };
 
