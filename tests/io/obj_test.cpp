@@ -53,11 +53,11 @@ TEST(Obj, FillsMissingAttributesOfCorners) {
                                             "f 1 2 3\nf 1//1 2/1 3/1/1\nf 1/ 2// 3\n"));
   EXPECT_EQ(imported.mesh.indices, (Indices{0, 1, 2, 3, 4, 5, 0, 1, 2}));
   EXPECT_EQ(imported.mesh.normals[3], Vec3(0, 0, 1));
-  EXPECT_EQ(imported.mesh.normals[4], Vec3(0));
+  EXPECT_EQ(imported.mesh.normals[0], Vec3(0, 0, 1));
   EXPECT_EQ(imported.mesh.texcoords[4], Vec2(1, 0));
   EXPECT_EQ(imported.warnings, (Warnings{"1 vertices that no face uses were dropped",
                                          "4 vertices without texture coordinate got (0, 0)",
-                                         "4 vertices without normal got (0, 0, 0)"}));
+                                         "4 vertices without normal got that of their triangles"}));
 }
 
 TEST(Obj, ReadsVertexColours) {

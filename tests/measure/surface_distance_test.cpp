@@ -6,7 +6,6 @@
 #include <varifold/measure/surface_distance.h>
 #include <varifold/mesh/generators.h>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 namespace varifold {
@@ -107,9 +106,9 @@ TEST(SurfaceDistanceReport, IsTwoSided) {
 }
 
 TEST(SurfaceDistanceReport, ConcentricSpheres) {
-  TriangleMesh inner = test::icosphere(20'000), outer = inner;
+  TriangleMesh inner = test::icosphere(5'000), outer = inner;
   for (Vec3& p : outer.positions) p *= 1.1f;
-  const SurfaceDistanceReport report = surface_distance(inner, outer);
+  const SurfaceDistanceReport report = surface_distance(inner, outer, {.samples = 20'000});
   EXPECT_NEAR(report.rms, 0.1, 2e-3);
 }
 
@@ -146,7 +145,7 @@ TEST(SurfaceDistanceReport, SameBytesForAnyNumberOfThreads) {
   for (const int threads : {2, 3, 0}) {
     const SurfaceDistanceReport many =
         surface_distance(a, b, {.samples = 20'000, .threads = threads});
-    EXPECT_EQ(std::memcmp(&one, &many, sizeof(one)), 0);
+    EXPECT_TRUE(one == many) << threads;
   }
   const SurfaceDistanceReport other = surface_distance(a, b, {.samples = 20'000, .seed = 2});
   EXPECT_NE(one.rms, other.rms);

@@ -51,8 +51,9 @@ inline void append_little(std::vector<std::byte>& bytes, T value) {
 
 /// Appends the characters of `text`.
 inline void append_text(std::vector<std::byte>& bytes, std::string_view text) {
-  const auto* first = reinterpret_cast<const std::byte*>(text.data());
-  bytes.insert(bytes.end(), first, first + text.size());
+  const std::size_t at = bytes.size();
+  bytes.resize(at + text.size());
+  if (!text.empty()) std::memcpy(bytes.data() + at, text.data(), text.size());
 }
 
 /// The bytes seen as characters, and the other way round.

@@ -5,47 +5,59 @@
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+#include <algorithm>
+#include <optional>
 
-#ifdef __SANITIZE_THREAD__
+#if defined(__SANITIZE_THREAD__)
+#define VARIFOLD_THREAD_SANITIZER 1
+#elif defined(__has_feature)
+#if __has_feature(thread_sanitizer)
+#define VARIFOLD_THREAD_SANITIZER 1
+#endif
+#endif
+
+#ifdef VARIFOLD_THREAD_SANITIZER
 #include <atomic>
 #include <thread>
 #include <vector>
 #endif
-#include <algorithm>
-#include <optional>
 
 namespace varifold {
 
-int hardware_threads() { return std::max(1, tbb::info::default_concurrency()); }
-
 namespace {
 
-// ThreadSanitizer cannot see how oneTBB hands work over, so under it plain threads share a counter.
-#ifdef __SANITIZE_THREAD__
-void run_pieces(int threads, std::size_t pieces, const std::function<void(std::size_t)>& run) {
+/// Runs piece(0) .. piece(count - 1) on the pool.
+template <class Piece>
+void run_pieces(int threads, std::size_t count, const Piece& piece) {
+#ifdef VARIFOLD_THREAD_SANITIZER
+  // The sanitizer cannot see how the system's oneTBB synchronises; plain threads it can.
   std::atomic<std::size_t> next{0};
   std::vector<std::thread> workers;
   for (int i = 0; i < threads; ++i)
     workers.emplace_back([&] {
-      for (std::size_t piece = next++; piece < pieces; piece = next++) run(piece);
+      for (std::size_t p = next++; p < count; p = next++) piece(p);
     });
   for (std::thread& worker : workers) worker.join();
-}
 #else
-void run_pieces(int threads, std::size_t pieces, const std::function<void(std::size_t)>& run) {
+  // oneTBB caps its workers at the hardware's; more are given where they are asked for.
+  std::optional<tbb::global_control> raised;
+  if (threads > hardware_threads())
+    raised.emplace(tbb::global_control::max_allowed_parallelism, threads);
   tbb::task_arena arena(threads);
   arena.execute([&] {
     tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, pieces, 1),
+        tbb::blocked_range<std::size_t>(0, count, 1),
         [&](const tbb::blocked_range<std::size_t>& range) {
-          for (std::size_t i = range.begin(); i < range.end(); ++i) run(i);
+          for (std::size_t p = range.begin(); p < range.end(); ++p) piece(p);
         },
         tbb::simple_partitioner());
   });
-}
 #endif
+}
 
 }  // namespace
+
+int hardware_threads() { return std::max(1, tbb::info::default_concurrency()); }
 
 void parallel_for(int threads, std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t, std::size_t)>& body) {
@@ -56,10 +68,6 @@ void parallel_for(int threads, std::size_t count, std::size_t grain,
     for (std::size_t i = 0; i < pieces; ++i) body(i * grain, std::min(count, (i + 1) * grain));
     return;
   }
-  // oneTBB caps its workers at the hardware's; more are given where they are asked for.
-  std::optional<tbb::global_control> raised;
-  if (threads > hardware_threads())
-    raised.emplace(tbb::global_control::max_allowed_parallelism, threads);
   run_pieces(threads, pieces,
              [&](std::size_t i) { body(i * grain, std::min(count, (i + 1) * grain)); });
 }

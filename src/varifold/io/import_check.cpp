@@ -75,11 +75,27 @@ Result<ImportedMesh> finish_import(ImportedMesh imported) {
   return imported;
 }
 
+void fill_missing_normals(TriangleMesh& mesh, const std::vector<bool>& is_missing) {
+  std::vector<DVec3> sums(mesh.positions.size(), DVec3(0));
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    const DVec3 a = mesh.positions[mesh.indices[i]];
+    const DVec3 b = mesh.positions[mesh.indices[i + 1]];
+    const DVec3 c = mesh.positions[mesh.indices[i + 2]];
+    const DVec3 area = glm::cross(b - a, c - a);
+    for (std::size_t corner = i; corner < i + 3; ++corner) sums[mesh.indices[corner]] += area;
+  }
+  for (std::size_t v = 0; v < sums.size(); ++v) {
+    if (!is_missing[v]) continue;
+    const double length = glm::length(sums[v]);
+    mesh.normals[v] = length > 0 ? Vec3(sums[v] / length) : Vec3(0);
+  }
+}
+
 void warn_count(ImportedMesh& imported, std::size_t count, std::string_view what) {
   if (count > 0) imported.warnings.push_back(fmt::format("{} {}", count, what));
 }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   constexpr std::size_t kLongest = 60;
   std::string result = "'";
   for (const char c : text.substr(0, kLongest)) {

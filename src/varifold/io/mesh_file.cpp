@@ -1,7 +1,7 @@
 #include <varifold/io/mesh_file.h>
 
 #include <varifold/base/bytes.h>
-#include <varifold/io/import_check.h>
+#include <varifold/io/gltf.h>
 #include <varifold/io/mapped_file.h>
 #include <varifold/io/obj.h>
 #include <varifold/io/output_file.h>
@@ -87,9 +87,11 @@ Result<ImportedMesh> decode_mesh(std::span<const std::byte> file, MeshFormat for
       return read_obj(file, folder);
     case MeshFormat::kStl:
       return read_stl(file);
-    default:
-      return fail(ErrorKind::kUnsupported, "not yet");
+    case MeshFormat::kGltf:
+    case MeshFormat::kGlb:
+      return read_gltf(file, folder);
   }
+  return fail(ErrorKind::kUnsupported, "no such format");
 }
 
 Result<ImportedMesh> read_mesh(const std::filesystem::path& path) {
@@ -107,6 +109,11 @@ Result<void> write_mesh(const TriangleMesh& mesh, const std::filesystem::path& p
   const auto format = format_of_extension(path);
   if (format == MeshFormat::kPly) return write_file(path, write_ply(mesh));
   if (format == MeshFormat::kObj) return write_obj_files(mesh, path);
+  if (format == MeshFormat::kGlb) {
+    const auto bytes = write_glb(mesh);
+    if (!bytes) return fail_in(path.string(), bytes.error());
+    return write_file(path, *bytes);
+  }
   return fail(ErrorKind::kFailed,
               path.string() + ": cannot write this format; known are .ply, .obj and .glb");
 }
@@ -114,9 +121,16 @@ Result<void> write_mesh(const TriangleMesh& mesh, const std::filesystem::path& p
 std::vector<std::string> unwritten_parts(const TriangleMesh& mesh, MeshFormat format) {
   std::vector<std::string> parts;
   if (format == MeshFormat::kPly && !mesh.materials.empty()) parts.emplace_back("materials");
-  if (format == MeshFormat::kObj &&
-      std::any_of(mesh.colors.begin(), mesh.colors.end(), [](Color c) { return c.a != 255; }))
+  if (format != MeshFormat::kObj) return parts;
+  const auto has_alpha = [](const Color& color) { return color.a != 255; };
+  if (std::any_of(mesh.colors.begin(), mesh.colors.end(), has_alpha))
     parts.emplace_back("alpha of vertex colours");
+  const auto has_other_textures = [](const Material& material) {
+    return material.textures[static_cast<std::size_t>(TextureUse::kMetallicRoughness)] != kNone ||
+           material.textures[static_cast<std::size_t>(TextureUse::kOcclusion)] != kNone;
+  };
+  if (std::any_of(mesh.materials.begin(), mesh.materials.end(), has_other_textures))
+    parts.emplace_back("metallic-roughness and occlusion textures");
   return parts;
 }
 

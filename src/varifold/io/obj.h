@@ -19,7 +19,8 @@ namespace varifold {
 ///
 /// Every distinct triple (v, vt, vn) becomes a vertex, in the order of first use; in a file whose
 /// faces have neither vt nor vn the vertices are those of the file, used or not. A corner without
-/// vt or vn in a file where others have them gets zeros. Textures begin at the lower left in OBJ
+/// vt in a file where others have them gets (0, 0), one without vn the normal of its triangles.
+/// Textures begin at the lower left in OBJ
 /// and at the upper left in TriangleMesh (as in glTF), so v becomes 1 - v. Material files are
 /// looked for below `folder`; each name after usemtl becomes a material, known or not.
 ///

@@ -12,6 +12,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <unordered_map>
+#include <unordered_set>
 
 namespace varifold {
 namespace {
@@ -84,7 +86,7 @@ class ObjReader {
     } else if (keyword == "p" || keyword == "l") {
       ++points_and_lines_;
     } else if (keyword != "g" && keyword != "o" && keyword != "s") {
-      if (unknown_count_++ == 0) unknown_ = quoted(keyword);
+      if (unknown_count_++ == 0) unknown_ = in_quotes(keyword);
       known = false;
     }
     is_obj_ = is_obj_ || known;
@@ -115,7 +117,7 @@ class ObjReader {
     while (count < values.size() && !line_ends()) {
       if (!text_.float_here(values[count])) {
         TextScanner ahead = text_;
-        return bad("expected a number instead of " + quoted(ahead.token_in_line()));
+        return bad("expected a number instead of " + in_quotes(ahead.token_in_line()));
       }
       ++count;
     }
@@ -139,12 +141,10 @@ class ObjReader {
     // Six numbers: x y z r g b. Seven: colours with alpha.
     if (colors_.empty()) colors_.assign(positions_.values.size() - 1, Color(255, 255, 255, 255));
     if (*count == 6) numbers[6] = 1;
-    Color color;
-    for (int i = 0; i < 4; ++i) {
-      const float scaled = numbers[static_cast<std::size_t>(3 + i)] * 255 + 0.5f;
-      color[i] = scaled >= 255 ? 255 : scaled > 0 ? static_cast<std::uint8_t>(scaled) : 0;
-    }
-    colors_.push_back(color);
+    for (std::size_t i = 3; i < numbers.size(); ++i)
+      if (!std::isfinite(numbers[i])) ++colors_not_finite_;
+    colors_.emplace_back(color_byte(numbers[3]), color_byte(numbers[4]), color_byte(numbers[5]),
+                         color_byte(numbers[6]));
     return {};
   }
 
@@ -197,7 +197,7 @@ class ObjReader {
     }
     if (!at_corner_end()) {
       TextScanner ahead = text_;
-      return bad("unexpected " + quoted(ahead.token_in_line()) + " in a face");
+      return bad("unexpected " + in_quotes(ahead.token_in_line()) + " in a face");
     }
     return {};
   }
@@ -210,7 +210,7 @@ class ObjReader {
     std::int64_t value = 0;
     if (!text_.digits_here(value)) {
       TextScanner ahead = text_;
-      return bad("expected an index instead of " + quoted(ahead.token_in_line()));
+      return bad("expected an index instead of " + in_quotes(ahead.token_in_line()));
     }
     const auto count = static_cast<std::int64_t>(list.values.size());
     // Negative indices count back from the newest entry, -1.
@@ -255,6 +255,7 @@ class ObjReader {
 
   /// The name may have spaces, or there may be several names: the whole is tried first.
   void read_library(const std::string& names) {
+    if (!libraries_.insert(names).second) return;
     auto whole = open_resource(folder_, names);
     if (whole) {
       library_.add(as_text(whole->bytes()));
@@ -283,6 +284,9 @@ class ObjReader {
       mesh_.colors = std::move(colors_);
     }
     polygons_.cut_concave();
+    const auto without_normal =
+        static_cast<std::size_t>(std::count(has_no_normal_.begin(), has_no_normal_.end(), true));
+    if (without_normal > 0) fill_missing_normals(mesh_, has_no_normal_);
     set_materials();
 
     ImportedMesh imported;
@@ -291,7 +295,8 @@ class ObjReader {
     polygons_.warn(imported);
     warn_count(imported, unused_, "vertices that no face uses were dropped");
     warn_count(imported, without_texcoord_, "vertices without texture coordinate got (0, 0)");
-    warn_count(imported, without_normal_, "vertices without normal got (0, 0, 0)");
+    warn_count(imported, without_normal, "vertices without normal got that of their triangles");
+    warn_count(imported, colors_not_finite_, "components of colours that are not finite became 0");
     warn_count(imported, points_and_lines_, "point and line elements were dropped");
     warn_count(imported, unknown_count_, "lines were not understood, the first being " + unknown_);
     return finish_import(std::move(imported));
@@ -322,7 +327,7 @@ class ObjReader {
       if (normals_.largest > 0) {
         const bool given = wedge.normal != kNone;
         mesh_.normals.push_back(given ? normals_.values[wedge.normal] : Vec3(0));
-        without_normal_ += given ? 0 : 1;
+        has_no_normal_.push_back(!given);
       }
     }
     unused_ = static_cast<std::size_t>(std::count(is_used.begin(), is_used.end(), false));
@@ -362,14 +367,16 @@ class ObjReader {
   std::vector<std::string> material_names_;
   std::unordered_map<std::string, std::uint32_t> material_ids_;
   obj::MaterialLibrary library_;
+  std::unordered_set<std::string> libraries_;  ///< what followed mtllib so far
 
   std::vector<std::string> warnings_;
+  std::size_t colors_not_finite_ = 0;
   std::size_t points_and_lines_ = 0;
   std::size_t unknown_count_ = 0;
   std::size_t missing_libraries_ = 0;
   std::size_t unused_ = 0;
   std::size_t without_texcoord_ = 0;
-  std::size_t without_normal_ = 0;
+  std::vector<bool> has_no_normal_;
   std::string unknown_;
 };
 

@@ -87,7 +87,7 @@ class HeaderParser {
       return {};
     }
     if (word == "obj_info" || word.empty()) return {};
-    return bad("unknown keyword " + quoted(word));
+    return bad("unknown keyword " + in_quotes(word));
   }
 
   Result<void> read_format(TextScanner& line) {
@@ -99,10 +99,10 @@ class HeaderParser {
     } else if (name == "binary_big_endian") {
       header_.encoding = Encoding::kBinaryBig;
     } else {
-      return bad("unknown format " + quoted(name));
+      return bad("unknown format " + in_quotes(name));
     }
     const std::string_view version = line.token();
-    if (version != "1.0") return bad("unknown version " + quoted(version));
+    if (version != "1.0") return bad("unknown version " + in_quotes(version));
     return {};
   }
 
@@ -116,7 +116,7 @@ class HeaderParser {
       return bad("'element' needs a name and a count");
     if (header_.elements.size() == kMostNames) return bad("too many elements");
     for (const Element& other : header_.elements)
-      if (other.name == element.name) return bad("element " + quoted(element.name) + " twice");
+      if (other.name == element.name) return bad("element " + in_quotes(element.name) + " twice");
     header_.elements.push_back(std::move(element));
     return {};
   }
@@ -137,7 +137,7 @@ class HeaderParser {
     Element& element = header_.elements.back();
     if (element.properties.size() == kMostNames) return bad("too many properties");
     if (element.find(property.name) != kNone)
-      return bad("property " + quoted(property.name) + " twice");
+      return bad("property " + in_quotes(property.name) + " twice");
     element.properties.push_back(std::move(property));
     return {};
   }
@@ -146,7 +146,7 @@ class HeaderParser {
     const auto* const found =
         std::find_if(kTypeNames.begin(), kTypeNames.end(),
                      [&](const TypeName& candidate) { return candidate.name == word; });
-    if (found == kTypeNames.end()) return bad("unknown type " + quoted(word));
+    if (found == kTypeNames.end()) return bad("unknown type " + in_quotes(word));
     type = found->type;
     return {};
   }

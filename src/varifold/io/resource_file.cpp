@@ -10,7 +10,7 @@ Result<MappedFile> open_resource(const std::filesystem::path& folder, std::strin
   std::replace(slashes.begin(), slashes.end(), '\\', '/');
   const auto path = std::filesystem::path(slashes).lexically_normal();
   const auto bad = [&](std::string_view fault) {
-    return fail(ErrorKind::kUnreadable, quoted(name) + " " + std::string(fault));
+    return fail(ErrorKind::kUnreadable, in_quotes(name) + " " + std::string(fault));
   };
   if (folder.empty()) return bad("cannot be looked for: the mesh has no folder");
   if (name.empty() || name.find('\0') != name.npos || !path.has_filename())

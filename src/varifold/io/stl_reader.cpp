@@ -114,7 +114,7 @@ class AsciiReader {
   }
   [[nodiscard]] tl::unexpected<Error> unexpected(std::string_view word) const {
     if (word.empty()) return bad("the file ends inside a facet");
-    return bad("unexpected " + quoted(word));
+    return bad("unexpected " + in_quotes(word));
   }
 
   Result<void> expect(std::string_view keyword) {
@@ -152,7 +152,7 @@ class AsciiReader {
       TextScanner ahead = text_;
       const std::string_view word = ahead.token();
       if (word.empty()) return unexpected(word);
-      return bad("expected a number instead of " + quoted(word));
+      return bad("expected a number instead of " + in_quotes(word));
     }
     const Vec3 position(p[0], p[1], p[2]);
     if (!is_finite(position)) return bad("position is not finite");

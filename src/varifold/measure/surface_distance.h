@@ -66,6 +66,8 @@ struct SurfaceDistanceReport {
   double hausdorff = 0;       ///< the larger of the two; sampled, so a lower bound
   std::uint32_t samples = 0;  ///< per direction
   double diagonal = 0;  ///< of the box around the triangles of b, to put lengths in proportion
+
+  friend bool operator==(const SurfaceDistanceReport&, const SurfaceDistanceReport&) = default;
 };
 
 /// Samples `from` by area (by number where it has no area), each sample in its own stratum, and

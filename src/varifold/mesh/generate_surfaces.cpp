@@ -13,14 +13,16 @@ struct Point {
   DVec3 normal;
 };
 
+std::uint32_t nearest(double x) { return static_cast<std::uint32_t>(std::llround(x)); }
+
 /// Columns and rows of a grid with about the wanted number of quads, `aspect` columns to a row.
 struct GridSize {
   std::uint32_t columns;
   std::uint32_t rows;
 
   GridSize(double quads, double aspect, std::uint32_t least_columns, std::uint32_t least_rows) {
-    rows = std::max(least_rows, static_cast<std::uint32_t>(std::sqrt(quads / aspect) + 0.5));
-    columns = std::max(least_columns, static_cast<std::uint32_t>(quads / rows + 0.5));
+    rows = std::max(least_rows, nearest(std::sqrt(quads / aspect)));
+    columns = std::max(least_columns, nearest(quads / rows));
   }
 };
 
@@ -39,7 +41,7 @@ struct Poles {
 /// column.
 template <class Surface>
 void add_grid(TriangleMesh& mesh, const GridSize& size, const Poles& poles, const Surface& fn) {
-  const auto [columns, rows] = size;
+  const std::uint32_t columns = size.columns, rows = size.rows;
   const auto is_pole = [&](std::uint32_t row) {
     return (row == 0 && poles.first_row) || (row == rows && poles.last_row);
   };
@@ -108,7 +110,7 @@ GridSize sphere_size(const GeneratorOptions& options, std::uint32_t least_rings)
   const double quads = wanted_quads(options);
   GridSize size(quads, 2, 3, least_rings);
   if (size.rows % 2 == 1 && least_rings % 2 == 0) ++size.rows;
-  size.columns = std::max(3u, static_cast<std::uint32_t>(quads / (size.rows - 1) + 0.5));
+  size.columns = std::max(3u, nearest(quads / (size.rows - 1)));
   return size;
 }
 
@@ -188,7 +190,7 @@ TriangleMesh plane(const GeneratorOptions& options) {
 
 TriangleMesh box(const GeneratorOptions& options) {
   const double wanted = std::min(options.triangles, kMaxGeneratedTriangles);
-  const auto n = static_cast<std::uint32_t>(std::max(1.0, std::sqrt(wanted / 12) + 0.5));
+  const auto n = std::max(1u, nearest(std::sqrt(wanted / 12)));
   GridSize size(1, 1, n, n);
   TriangleMesh mesh;
   for (int axis = 0; axis < 3; ++axis)

@@ -57,7 +57,7 @@ TriangleMesh height_grid(std::uint32_t columns, std::uint32_t rows, int threads,
 
 TriangleMesh terrain(const TerrainOptions& options) {
   const double wanted = std::min(options.triangles, kMaxGeneratedTriangles);
-  const auto cells = static_cast<std::uint32_t>(std::max(1.0, std::sqrt(wanted / 2) + 0.5));
+  const auto cells = static_cast<std::uint32_t>(std::max(1ll, std::llround(std::sqrt(wanted / 2))));
   const GradientNoise noise(options.seed);
   FractalOptions fractal;
   fractal.frequency = 1.3;

@@ -44,7 +44,9 @@ class StarScanner {
   struct Opposite {
     std::uint64_t edge;
     std::uint32_t triangle;
-    auto operator<=>(const Opposite&) const = default;
+    bool operator<(const Opposite& other) const {
+      return edge != other.edge ? edge < other.edge : triangle < other.triangle;
+    }
   };
 
   /// Lists the spokes and, of triangles that count here, the opposite edges.

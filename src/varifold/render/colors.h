@@ -17,14 +17,14 @@ namespace varifold {
   return {channel(c.x), channel(c.y), channel(c.z)};
 }
 
-/// The sRGB colour of a level from 0 (coarsest, blue) over teal, yellow and orange to 1 (finest,
-/// red). Values outside are clamped.
+/// The sRGB colour of a level from 0 (coarsest, blue) over teal, green and yellow to 1 (finest,
+/// orange); red is left to faults. Values outside are clamped.
 [[nodiscard]] inline Vec3 level_color(float level) {
-  constexpr std::array<std::array<float, 3>, 5> kStops = {{{0.22f, 0.37f, 0.70f},
-                                                           {0.20f, 0.64f, 0.67f},
-                                                           {0.93f, 0.84f, 0.45f},
-                                                           {0.94f, 0.58f, 0.30f},
-                                                           {0.80f, 0.24f, 0.25f}}};
+  constexpr std::array<std::array<float, 3>, 5> kStops = {{{0.27f, 0.35f, 0.72f},
+                                                           {0.20f, 0.62f, 0.70f},
+                                                           {0.50f, 0.78f, 0.47f},
+                                                           {0.96f, 0.83f, 0.40f},
+                                                           {0.92f, 0.50f, 0.22f}}};
   const float place = std::clamp(level, 0.0f, 1.0f) * (kStops.size() - 1);
   const std::size_t stop = std::min(static_cast<std::size_t>(place), kStops.size() - 2);
   const float part = place - static_cast<float>(stop);

@@ -1,14 +1,23 @@
 #include <varifold/render/frame_targets.h>
 
 namespace varifold::gl {
+namespace {
+
+/// A framebuffer that draws colours into a texture.
+Framebuffer make_target(const Texture& color) {
+  Framebuffer target = make_framebuffer();
+  glNamedFramebufferTexture(target.name(), GL_COLOR_ATTACHMENT0, color.name(), 0);
+  return target;
+}
+
+}  // namespace
 
 Result<void> FrameTargets::resize(const TextureSize& new_scene, const TextureSize& new_picture) {
   if (scene && new_scene == scene_size && new_picture == picture_size) return {};
   *this = {};
   scene_color = make_texture(GL_RGBA16F, new_scene);
   scene_depth = make_texture(GL_DEPTH_COMPONENT32F, new_scene);
-  scene = make_framebuffer();
-  glNamedFramebufferTexture(scene.name(), GL_COLOR_ATTACHMENT0, scene_color.name(), 0);
+  scene = make_target(scene_color);
   glNamedFramebufferTexture(scene.name(), GL_DEPTH_ATTACHMENT, scene_depth.name(), 0);
 
   first_depth = make_texture(GL_DEPTH_COMPONENT32F, {new_scene.width, new_scene.height, 1});
@@ -18,8 +27,7 @@ Result<void> FrameTargets::resize(const TextureSize& new_scene, const TextureSiz
   glNamedFramebufferReadBuffer(first_depth_target.name(), GL_NONE);
 
   picture_color = make_texture(GL_RGBA8, new_picture);
-  picture = make_framebuffer();
-  glNamedFramebufferTexture(picture.name(), GL_COLOR_ATTACHMENT0, picture_color.name(), 0);
+  picture = make_target(picture_color);
 
   if (auto done = check_errors("making the picture's buffers"); !done) {
     *this = {};
@@ -33,6 +41,16 @@ Result<void> FrameTargets::resize(const TextureSize& new_scene, const TextureSiz
   scene_size = new_scene;
   picture_size = new_picture;
   return {};
+}
+
+Result<void> FrameTargets::add_occlusion() {
+  if (raw_occlusion_target) return {};
+  const TextureSize size{scene_size.width, scene_size.height, 1};
+  raw_occlusion = make_texture(GL_R8, size);
+  blurred_occlusion = make_texture(GL_R8, size);
+  raw_occlusion_target = make_target(raw_occlusion);
+  blurred_occlusion_target = make_target(blurred_occlusion);
+  return check_errors("making the occlusion buffers");
 }
 
 void FrameTargets::copy_first_depth() const {

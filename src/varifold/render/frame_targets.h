@@ -16,11 +16,16 @@ struct FrameTargets {
   Framebuffer scene;
   Texture first_depth;
   Framebuffer first_depth_target;
+  // Only where they are asked for.
+  Texture raw_occlusion, blurred_occlusion;
+  Framebuffer raw_occlusion_target, blurred_occlusion_target;
   Texture picture_color;
   Framebuffer picture;
 
   /// Makes everything anew if a size changed. kFailed when memory ends.
   [[nodiscard]] Result<void> resize(const TextureSize& new_scene, const TextureSize& new_picture);
+  /// Makes the occlusion buffers if there are none of this size yet.
+  [[nodiscard]] Result<void> add_occlusion();
   /// Fills first_depth from scene_depth.
   void copy_first_depth() const;
 };

@@ -99,6 +99,12 @@ Result<Program> make_program(std::string_view name, std::initializer_list<Shader
   return program;
 }
 
+Result<void> assign(Program& target, Result<Program> made) {
+  if (!made) return tl::unexpected<Error>(std::move(made.error()));
+  target = std::move(*made);
+  return {};
+}
+
 void set_uniform(const Program& program, const char* name, int value) {
   glProgramUniform1i(program.name(), location(program, name), value);
 }

@@ -68,6 +68,9 @@ struct ShaderStage {
 [[nodiscard]] Result<Program> make_program(std::string_view name,
                                            std::initializer_list<ShaderStage> stages);
 
+/// Moves a program to its place, or hands on the error.
+[[nodiscard]] Result<void> assign(Program& target, Result<Program> made);
+
 /// Sets a uniform by name; does nothing where the program has no such uniform.
 void set_uniform(const Program& program, const char* name, int value);
 void set_uniform(const Program& program, const char* name, float value);

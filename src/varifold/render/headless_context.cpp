@@ -1,8 +1,8 @@
 #include <varifold/render/headless_context.h>
 
 // epoxy/egl.h would drag in the X11 headers, with their macros.
-#define EGL_NO_X11
-#define MESA_EGL_NO_X11_HEADERS
+#define EGL_NO_X11               // NOLINT(readability-identifier-naming)
+#define MESA_EGL_NO_X11_HEADERS  // NOLINT(readability-identifier-naming)
 #include <dlfcn.h>
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+// NOLINTBEGIN(readability-identifier-naming): the names that stb looks for
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
 #define STBI_ONLY_PNG
@@ -18,6 +19,7 @@
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STB_IMAGE_WRITE_STATIC
 #define STBI_WRITE_NO_STDIO
+// NOLINTEND(readability-identifier-naming)
 #include <stb/stb_image_write.h>
 
 namespace varifold {

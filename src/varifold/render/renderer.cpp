@@ -4,12 +4,14 @@
 #include <varifold/render/frame_targets.h>
 #include <varifold/render/gl_objects.h>
 #include <varifold/render/mesh_buffers.h>
+#include <varifold/render/picture_passes.h>
 #include <varifold/render/shaders.h>
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_access.hpp>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -19,8 +21,7 @@ using gl::MeshBuffers;
 
 struct Renderer::Impl {
   gl::Program mesh_program, wire_program;
-  gl::Program resolve_program, resolve_multisample_program;
-  gl::VertexArray screen_triangle;
+  gl::PicturePasses passes;
   gl::FrameTargets targets;
   int max_samples = 1;
 
@@ -48,14 +49,6 @@ struct Renderer::Impl {
 namespace {
 
 constexpr std::string_view kWireDefine = "#define WIRE\n";
-constexpr std::string_view kMultisampleDefine = "#define MULTISAMPLE\n";
-
-/// Binds the value of a Result, or returns its error.
-Result<void> assign(gl::Program& target, Result<gl::Program> made) {
-  if (!made) return tl::unexpected<Error>(std::move(made.error()));
-  target = std::move(*made);
-  return {};
-}
 
 tl::unexpected<Error> no_frame() { return fail(ErrorKind::kFailed, "renderer: nothing was begun"); }
 
@@ -74,13 +67,6 @@ Vec3 linear_base_color(const DrawRange& range, const DrawStyle& style) {
   if (style.color_mode == ColorMode::kMaterial && range.material < style.material_colors.size())
     return Vec3(style.material_colors[range.material]);
   return linear_from_srgb(style.plain_color);
-}
-
-void draw_screen_triangle(const gl::Program& program, const gl::VertexArray& triangle) {
-  glDisable(GL_DEPTH_TEST);
-  glUseProgram(program.name());
-  glBindVertexArray(triangle.name());
-  glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
 /// OpenGL pictures start at the bottom row.
@@ -125,8 +111,9 @@ void Renderer::Impl::draw_ranges(const gl::Program& program, const DrawList& lis
     for (; i < list.ranges.size() && same_batch(first, list.ranges[i], style.color_mode); ++i) {
       const DrawRange& range = list.ranges[i];
       batch_counts.push_back(static_cast<GLsizei>(range.index_count));
-      batch_offsets.push_back(reinterpret_cast<const void*>(
-          static_cast<std::uintptr_t>(range.first_index) * sizeof(std::uint32_t)));
+      const auto offset = std::uintptr_t{range.first_index} * sizeof(std::uint32_t);
+      // NOLINTNEXTLINE(performance-no-int-to-ptr): an offset into the buffer, says OpenGL
+      batch_offsets.push_back(reinterpret_cast<const void*>(offset));
     }
     gl::set_uniform(program, "base_color", linear_base_color(first, style));
     glMultiDrawElements(first.primitive == Primitive::kTriangles ? GL_TRIANGLES : GL_TRIANGLE_STRIP,
@@ -138,20 +125,7 @@ void Renderer::Impl::draw_ranges(const gl::Program& program, const DrawList& lis
 Result<void> Renderer::Impl::resolve() {
   if (!in_frame) return no_frame();
   if (resolved) return {};
-  const bool multisample = targets.scene_size.samples > 1;
-  const gl::Program& program = multisample ? resolve_multisample_program : resolve_program;
-  gl::set_uniform(program, "scene", 0);
-  // For a texture of one sample the sample number is the mip level 0.
-  gl::set_uniform(program, "samples", targets.scene_size.samples);
-  gl::set_uniform(program, "supersampling", options.supersampling);
-  gl::set_uniform(program, "size", Vec2(targets.picture_size.width, targets.picture_size.height));
-  gl::set_uniform(program, "background_top", options.background_top);
-  gl::set_uniform(program, "background_bottom", options.background_bottom);
-
-  glBindFramebuffer(GL_FRAMEBUFFER, targets.picture.name());
-  glViewport(0, 0, targets.picture_size.width, targets.picture_size.height);
-  glBindTextureUnit(0, targets.scene_color.name());
-  draw_screen_triangle(program, screen_triangle);
+  passes.run(targets, camera, options);
   resolved = true;
   return gl::check_errors("resolving the picture");
 }
@@ -161,29 +135,20 @@ Result<Renderer> Renderer::create() {
     return fail(ErrorKind::kFailed, "renderer: needs a current context with OpenGL 4.5");
   auto impl = std::make_unique<Impl>();
   const gl::ShaderStage mesh_vertex{GL_VERTEX_SHADER, gl::kMeshVertexShader};
-  const gl::ShaderStage screen_vertex{GL_VERTEX_SHADER, gl::kScreenVertexShader};
   const gl::ShaderStage wire_geometry{GL_GEOMETRY_SHADER, gl::kWireGeometryShader};
   const auto fragment = [](std::string_view source, std::string_view defines) {
     return gl::ShaderStage{GL_FRAGMENT_SHADER, source, defines};
   };
   Result<void> made =
-      assign(impl->mesh_program,
-             gl::make_program("mesh", {mesh_vertex, fragment(gl::kMeshFragmentShader, "")}));
+      gl::assign(impl->mesh_program,
+                 gl::make_program("mesh", {mesh_vertex, fragment(gl::kMeshFragmentShader, "")}));
   if (made)
-    made = assign(impl->wire_program,
-                  gl::make_program("wire", {mesh_vertex, wire_geometry,
-                                            fragment(gl::kMeshFragmentShader, kWireDefine)}));
-  if (made)
-    made = assign(
-        impl->resolve_program,
-        gl::make_program("resolve", {screen_vertex, fragment(gl::kResolveFragmentShader, "")}));
-  if (made)
-    made = assign(impl->resolve_multisample_program,
-                  gl::make_program("resolve", {screen_vertex, fragment(gl::kResolveFragmentShader,
-                                                                       kMultisampleDefine)}));
+    made = gl::assign(impl->wire_program,
+                      gl::make_program("wire", {mesh_vertex, wire_geometry,
+                                                fragment(gl::kMeshFragmentShader, kWireDefine)}));
+  if (made) made = impl->passes.create();
   if (!made) return tl::unexpected<Error>(std::move(made.error()));
 
-  impl->screen_triangle = gl::make_vertex_array();
   GLint color_samples = 1, depth_samples = 1;
   glGetIntegerv(GL_MAX_COLOR_TEXTURE_SAMPLES, &color_samples);
   glGetIntegerv(GL_MAX_DEPTH_TEXTURE_SAMPLES, &depth_samples);
@@ -233,6 +198,8 @@ Result<void> Renderer::begin(const Camera& camera, const PictureOptions& options
                                  {camera.width, camera.height, 1});
       !done)
     return done;
+  if (options.ambient_occlusion)
+    if (auto done = targets.add_occlusion(); !done) return done;
 
   // The depth and colour masks may have been left off by whoever shares the context.
   glDepthMask(GL_TRUE);

@@ -21,7 +21,7 @@ enum class ColorMode {
   kPlain,        ///< DrawStyle::plain_color for all
   kMaterial,     ///< DrawStyle::material_colors by the material of each range
   kVertexColor,  ///< the vertex colours of the list; plain where it has none
-  kLevel,        ///< a ramp from blue (coarse) to red (fine) by the level of each range
+  kLevel,        ///< level_color (colors.h) of the level of each range
 };
 
 enum class BackFaces {
@@ -58,7 +58,7 @@ struct PictureOptions {
   bool ambient_occlusion = false;
 };
 
-/// The smallest and largest picture side that can be asked for, supersampling included.
+/// The longest picture side that can be asked for, in pixels, supersampling included.
 inline constexpr int kMaxFrameSize = 16384;
 
 /// A draw list whose buffers a renderer keeps on the graphics card.

@@ -2,12 +2,14 @@
 // simplified surface are from those of the original at the same place.
 //
 // Based on: [Hoppe1999] section 5 (a quadric whose minimum over the attribute is linear in space).
-// Differs: quadrics sit at the wedge and its attribute values, so single precision serves; the part
-//   that depends on position alone is added to the position quadric of the point.
+// Differs: quadrics sit at the wedge and its attribute values, so single precision serves; apart from
+//   the geometric error, which keeps no memory, they gather what they have met.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <span>
+#include <varifold/base/large_vector.h>
 #include <varifold/mesh/triangle_mesh.h>
 #include <varifold/simplify/quadric.h>
 #include <vector>
@@ -28,23 +30,23 @@ class AttributeField {
   static constexpr int kMaxChannels = 9;  // normal 3, texture coordinate 2, colour 4
 
   AttributeField() = default;
-  /// Takes the channels that the mesh has and the weights do not switch off.
-  AttributeField(const TriangleMesh& mesh, const AttributeWeights& weights);
+  /// Takes the channels that the mesh has and the weights do not switch off; wedge w has the
+  /// attributes of vertex vertex_of[w].
+  AttributeField(const TriangleMesh& mesh, std::span<const std::uint32_t> vertex_of,
+                 const AttributeWeights& weights);
 
-  [[nodiscard]] bool empty() const { return channels_ == 0; }
-  [[nodiscard]] int channels() const { return channels_; }
+  [[nodiscard]] bool empty() const { return channel_count_ == 0; }
 
-  /// The face's linear attribute functions enter the quadrics of one of its corners: `wedge` with
-  /// edges to the two others. Returns what the position quadric of the point gains.
-  Quadric add_face(const std::array<std::uint32_t, 3>& wedges, const Vec3& edge_1,
-                   const Vec3& edge_2, float weight);
+  /// The face's linear attribute functions enter the quadric of one of its corners: `wedge` with
+  /// edges to the two others.
+  void add_face(const std::array<std::uint32_t, 3>& wedges, const Vec3& edge_1,
+                const Vec3& edge_2);
 
-  /// What the position quadric lacks when `wedge` moves by `d` onto `onto`: 0 if nothing changes.
-  [[nodiscard]] float coupling(std::uint32_t wedge, std::uint32_t onto, const Vec3& d) const;
+  /// The weighted squared attribute error when `wedge` moves by `d` and takes the values of `onto`.
+  [[nodiscard]] float cost(std::uint32_t wedge, std::uint32_t onto, const Vec3& d) const;
 
-  /// Moves the quadric of `wedge` by `d` to the values of `onto` and adds it there. Returns the
-  /// change of b and c that the point's position quadric needs on top of Quadric::moved_by.
-  Quadric merge(std::uint32_t wedge, std::uint32_t onto, const Vec3& d);
+  /// Moves the quadric of `wedge` by `d` to the values of `onto` and adds it there.
+  void merge(std::uint32_t wedge, std::uint32_t onto, const Vec3& d);
 
   /// The squared weighted difference of two wedges.
   [[nodiscard]] float distance_squared(std::uint32_t a, std::uint32_t b) const;
@@ -52,18 +54,38 @@ class AttributeField {
   [[nodiscard]] std::size_t bytes() const;
 
  private:
-  struct Term {
-    Vec3 gradient{0};  ///< sum of weight * gradient
-    float offset = 0;  ///< sum of weight * (value of the plane at the origin - own value)
+  // All of a wedge lies together: what does not depend on the values as a quadric, then for each
+  // channel the value, and what couples it to the place: the sum over the faces of weight *
+  // gradient, and of weight * (value of the face's linear function at the origin - own value).
+  struct Channel {
+    float value = 0;
+    float offset = 0;
+    Vec3 gradient{0};
   };
-  [[nodiscard]] const float* values(std::uint32_t wedge) const {
-    return &values_[std::size_t{wedge} * channels_];
-  }
+  struct Head {
+    Quadric quadric;
+    float weight = 0;
+  };
+  static constexpr std::size_t kHeadFloats = sizeof(Head) / sizeof(float);
+  static constexpr std::size_t kChannelFloats = sizeof(Channel) / sizeof(float);
 
-  int channels_ = 0;
-  std::vector<float> values_;
-  std::vector<Term> terms_;
-  std::vector<float> weights_;
+  [[nodiscard]] Head& head(std::uint32_t wedge) {
+    return *reinterpret_cast<Head*>(&data_[wedge * stride_]);
+  }
+  [[nodiscard]] const Head& head(std::uint32_t wedge) const {
+    return *reinterpret_cast<const Head*>(&data_[wedge * stride_]);
+  }
+  [[nodiscard]] Channel* channels(std::uint32_t wedge) {
+    return reinterpret_cast<Channel*>(&data_[wedge * stride_ + kHeadFloats]);
+  }
+  [[nodiscard]] const Channel* channels(std::uint32_t wedge) const {
+    return reinterpret_cast<const Channel*>(&data_[wedge * stride_ + kHeadFloats]);
+  }
+  [[nodiscard]] float coupling(std::uint32_t wedge, std::uint32_t onto, const Vec3& d) const;
+
+  int channel_count_ = 0;
+  std::size_t stride_ = 0;  // floats a wedge
+  LargeVector<float> data_;
 };
 
 }  // namespace varifold

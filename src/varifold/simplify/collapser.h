@@ -5,6 +5,8 @@
 #include <varifold/simplify/attribute_field.h>
 #include <varifold/simplify/bucket_queue.h>
 #include <varifold/simplify/legality.h>
+#include <varifold/simplify/point_quadric.h>
+#include <varifold/simplify/ring_merge.h>
 #include <varifold/simplify/working_surface.h>
 #include <vector>
 
@@ -13,7 +15,7 @@ namespace varifold {
 /// One collapse as it was done.
 struct CollapseLogEntry {
   std::uint32_t from, onto;     ///< points
-  float error;                  ///< sqrt(quadric error / area): a root mean square, unit scale
+  float error;                  ///< an estimate of the distance so far, unit scale
   std::uint16_t bucket;         ///< the bucket of its cost: the order across cells
   std::uint16_t removed_faces;  ///< how many entries of the log of faces belong to it
 };
@@ -28,24 +30,25 @@ struct Cell {
   std::vector<std::uint32_t> deferred;
   std::uint32_t limit = 0;  ///< the bucket at which the present round ends
 
-  // Scratch of the collapse in hand; kept to save allocations.
-  std::vector<RingEntry> ring;
-  std::vector<LinkEdge> edges, common_edges;
-  std::vector<std::uint32_t> dead_faces, moved_from, moved_onto;
+  MergeScratch scratch;
+  RingOffsets offsets;
 };
 
 /// What a Collapser works on besides the surface.
 struct CollapserOptions {
   LegalityOptions legality;
-  float area_exponent = -0.6f;  ///< cost = quadric * area^exponent (pitfalls: 0 and -1 both lose)
+  QuadricOptions quadric;
 };
 
 class Collapser {
  public:
+  /// `attributes` may be null, or empty: then geometry alone decides.
   Collapser(WorkingSurface& surface, AttributeField* attributes, const CollapserOptions& options)
-      : surface_(surface), attributes_(attributes), options_(options) {}
+      : surface_(surface),
+        attributes_(attributes && !attributes->empty() ? attributes : nullptr),
+        options_(options) {}
 
-  /// Finds the best collapse of every point in the cell and queues it. Fresh quadrics needed.
+  /// Finds the best collapse of every point in the cell and queues it.
   void queue_all(Cell& cell);
 
   /// Collapses in order of cost until the next bucket is `limit`. With `confined`, points with a
@@ -65,20 +68,14 @@ class Collapser {
     std::uint32_t target;
   };
   [[nodiscard]] bool leaves_cell(const Cell& cell, std::uint32_t point);
-  [[nodiscard]] Candidate best_candidate(std::uint32_t point);
-  [[nodiscard]] float cost_onto(std::uint32_t point, std::uint32_t onto);
+  [[nodiscard]] float attribute_cost(std::uint32_t point, std::uint32_t onto, const Vec3& d);
+  /// Sets target and step of a point and returns the cost; target kNone where it may not go.
+  [[nodiscard]] float find_candidate(Cell& cell, std::uint32_t point);
   [[nodiscard]] Refusal test(Cell& cell, std::uint32_t from, std::uint32_t onto);
   /// Tries the candidates of a point from the cheapest on. True when one was done.
   void try_others(Cell& cell, std::uint32_t point);
   void collapse(Cell& cell, std::uint32_t from, std::uint32_t onto);
-  void merge_regular(Cell& cell, std::uint32_t from, std::uint32_t onto);
-  void merge_irregular(Cell& cell, std::uint32_t from, std::uint32_t onto);
-  [[nodiscard]] bool is_regular_edge(std::uint32_t from, std::uint32_t onto);
-  void rename_neighbor(std::uint32_t point, std::uint32_t from, std::uint32_t onto);
-  void merge_state(Cell& cell, std::uint32_t from, std::uint32_t onto);
-  void touch(Cell& cell, std::uint32_t point, std::uint32_t from);
-  [[nodiscard]] bool match_wedges(Cell& cell, std::uint32_t from, std::uint32_t onto);
-  void move_wedges(Cell& cell, std::uint32_t from);
+  void touch(Cell& cell, std::uint32_t point);
   void requeue(Cell& cell, std::uint32_t point, std::uint32_t bucket);
 
   WorkingSurface& surface_;

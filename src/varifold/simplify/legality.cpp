@@ -23,10 +23,35 @@ std::uint32_t count_common(std::span<const RingEntry> a, std::span<const RingEnt
   return common;
 }
 
+// Two plain rings: the edge has the neighbours before and after `onto` as its apexes.
+Refusal test_plain_topology(WorkingSurface& surface, std::uint32_t from, std::uint32_t onto,
+                            const LegalityOptions& options) {
+  const auto ring = surface.ring_span(from);
+  const auto onto_ring = surface.ring_span(onto);
+  const std::size_t size = ring.size();
+  std::size_t at = 0;
+  while (at < size && ring[at].neighbor != onto) ++at;
+  if (at == size) return Refusal::kTopology;
+  const PointState& a = surface.points[ring[at + 1 == size ? 0 : at + 1].neighbor];
+  const PointState& b = surface.points[ring[at == 0 ? size - 1 : at - 1].neighbor];
+  // A closed ring of three would become two faces back to back.
+  if ((a.ring_size <= 3 && a.kind == VertexKind::kManifold) ||
+      (b.ring_size <= 3 && b.kind == VertexKind::kManifold))
+    return Refusal::kTopology;
+  if (count_common(ring, onto_ring) != 2) return Refusal::kTopology;
+  const std::size_t valence = size + onto_ring.size() - 4;
+  return valence <= std::max<std::size_t>(options.max_valence, onto_ring.size())
+             ? Refusal::kLegal
+             : Refusal::kValence;
+}
+
 // The third corners of the faces on the edge must be the only common neighbours, and must keep a
 // neighbourhood of their own.
 Refusal test_topology(WorkingSurface& surface, std::uint32_t from, std::uint32_t onto,
                       const LegalityOptions& options) {
+  if (surface.points[from].kind == VertexKind::kManifold &&
+      !((surface.points[from].flags | surface.points[onto].flags) & PointState::kIrregular))
+    return test_plain_topology(surface, from, onto, options);
   const auto ring = surface.ring_span(from);
   const auto onto_ring = surface.ring_span(onto);
   std::uint32_t edge_faces = 0;
@@ -66,12 +91,14 @@ float longest_squared(const Vec3& a, const Vec3& b, const Vec3& c) {
   return std::max({glm::dot(a, a), glm::dot(b, b), glm::dot(c, c)});
 }
 
+}  // namespace
+
 // The faces that stay must neither turn too far nor become needles.
-Refusal test_geometry(WorkingSurface& surface, std::uint32_t from, std::uint32_t onto,
-                      const LegalityOptions& options) {
-  const auto ring = surface.ring_span(from);
-  const Vec3 old_apex = surface.points[from].position;
-  const Vec3 new_apex = surface.points[onto].position;
+Refusal test_faces(WorkingSurface& surface, const ApexMove& move, const LegalityOptions& options) {
+  const auto ring = surface.ring_span(move.point);
+  const Vec3 old_apex = surface.points[move.point].position;
+  const Vec3 new_apex = move.position;
+  const std::uint32_t onto = move.partner;
   const float limit = options.min_normal_cosine * options.min_normal_cosine;
   const float shape_limit = options.min_shape * options.min_shape;
   for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -101,17 +128,20 @@ Refusal test_geometry(WorkingSurface& surface, std::uint32_t from, std::uint32_t
   return Refusal::kLegal;
 }
 
-}  // namespace
-
-Refusal test_collapse(WorkingSurface& surface, std::uint32_t from, std::uint32_t onto,
-                      const LegalityOptions& options) {
+Refusal test_connectivity(WorkingSurface& surface, std::uint32_t from, std::uint32_t onto,
+                          const LegalityOptions& options) {
   if (surface.points[onto].ring_size == 0) return Refusal::kTopology;
   if (const Refusal refusal = test_features(surface, from, onto); refusal != Refusal::kLegal)
     return refusal;
-  if (const Refusal refusal = test_topology(surface, from, onto, options);
+  return test_topology(surface, from, onto, options);
+}
+
+Refusal test_collapse(WorkingSurface& surface, std::uint32_t from, std::uint32_t onto,
+                      const LegalityOptions& options) {
+  if (const Refusal refusal = test_connectivity(surface, from, onto, options);
       refusal != Refusal::kLegal)
     return refusal;
-  return test_geometry(surface, from, onto, options);
+  return test_faces(surface, {from, onto, surface.points[onto].position}, options);
 }
 
 }  // namespace varifold

@@ -37,4 +37,18 @@ struct LegalityOptions {
 [[nodiscard]] Refusal test_collapse(WorkingSurface& surface, std::uint32_t from,
                                     std::uint32_t onto, const LegalityOptions& options);
 
+/// The part of it that no position matters to: kinds, link condition, valence.
+[[nodiscard]] Refusal test_connectivity(WorkingSurface& surface, std::uint32_t from,
+                                        std::uint32_t onto, const LegalityOptions& options);
+
+/// A point whose faces, but those at `partner`, get a new apex.
+struct ApexMove {
+  std::uint32_t point, partner;
+  Vec3 position;
+};
+
+/// The part of it that is about the shape of the faces around one point.
+[[nodiscard]] Refusal test_faces(WorkingSurface& surface, const ApexMove& move,
+                                 const LegalityOptions& options);
+
 }  // namespace varifold

@@ -2,8 +2,7 @@
 //
 // Based on: [GarlandHeckbert1997] section 5, area-weighted as in [GarlandHeckbert1998].
 // Differs: single precision about the vertex' own position instead of double about one origin. All
-//   planes of a fresh vertex pass through it, so it starts as a plain 3x3 matrix, and moving the
-//   quadric to the target of a collapse yields the error of the collapse as its constant term.
+//   planes of a fresh vertex pass through it, so it starts as a plain 3x3 matrix.
 #pragma once
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <varifold/simplify/collapse_rounds.h>
 #include <varifold/simplify/deviation.h>
-#include <varifold/simplify/initial_error.h>
+#include <varifold/simplify/placement_collapser.h>
 #include <varifold/simplify/sequence_builder.h>
 #include <varifold/simplify/stop_report.h>
 
@@ -70,6 +70,25 @@ void cut_below(DetailedMesh& detailed, std::uint32_t level) {
   for (std::uint32_t& l : sequence.triangle_level) l = l > level ? l - level : 0;
 }
 
+CollapseLog run_kept(WorkingSurface& surface, AttributeField& attributes, Collapser& collapser,
+                     const SimplifyOptions& options) {
+  if (!attributes.empty()) add_faces_to_attributes(surface, attributes, options.threads);
+  RoundOptions rounds;
+  rounds.target_faces = options.target_triangles;
+  rounds.threads = options.threads;
+  rounds.progress = options.progress;
+  return run_rounds(surface, collapser, rounds);
+}
+
+CollapseLog run_placed(WorkingSurface& surface, const TriangleMesh& mesh,
+                       const SimplifyOptions& options, PlacementLog& placement) {
+  PlacementOptions placement_options;
+  placement_options.legality = options.legality;
+  placement_options.target_faces = options.target_triangles;
+  placement_options.progress = options.progress;
+  return collapse_with_placement(surface, mesh, placement_options, placement);
+}
+
 }  // namespace
 
 Result<Simplification> simplify(const TriangleMesh& mesh, const SimplifyOptions& options) {
@@ -78,27 +97,22 @@ Result<Simplification> simplify(const TriangleMesh& mesh, const SimplifyOptions&
   const auto start = Clock::now();
   Simplification result;
 
-  // Build the working surface and its quadrics.
+  // Build the working surface.
   SurfaceOptions surface_options;
   surface_options.with_wedges = needs_wedges(mesh);
   surface_options.threads = options.threads;
   WorkingSurface surface = build_surface(mesh, surface_options, result.faults);
   const std::uint32_t all_faces = surface.face_count;
+  const bool placed = options.placement == Placement::kOptimal;
   AttributeField attributes;
-  if (surface_options.with_wedges) attributes = AttributeField(mesh, options.attributes);
-  ErrorOptions error_options;
-  error_options.threads = options.threads;
-  set_initial_error(surface, &attributes, error_options);
-
-  // Collapse until the target or until nothing is legal.
+  if (surface_options.with_wedges && !placed)
+    attributes = AttributeField(mesh, surface.wedge.vertex_of, options.attributes);
   CollapserOptions collapser_options;
   collapser_options.legality = options.legality;
   Collapser collapser(surface, &attributes, collapser_options);
-  RoundOptions rounds;
-  rounds.target_faces = options.target_triangles;
-  rounds.threads = options.threads;
-  rounds.progress = options.progress;
-  const CollapseLog log = run_rounds(surface, collapser, rounds);
+  PlacementLog placement;
+  const CollapseLog log = placed ? run_placed(surface, mesh, options, placement)
+                                 : run_kept(surface, attributes, collapser, options);
   if (log.cancelled) return fail(ErrorKind::kCancelled, "cancelled while simplifying");
   result.scratch_bytes = surface.bytes() + attributes.bytes() + log.queue_bytes;
 
@@ -106,6 +120,7 @@ Result<Simplification> simplify(const TriangleMesh& mesh, const SimplifyOptions&
   const std::size_t steps = steps_to_target(log, all_faces, options.target_triangles);
   result.stop = report_stop(surface, collapser, options, steps == log.entries.size());
   result.detailed = build_sequence(mesh, surface, log, steps);
+  if (placed) add_placement(result.detailed, surface, placement, steps);
   result.collapse_seconds = seconds_since(start);
 
   // Measure what the levels are worth.

@@ -1,0 +1,7 @@
+#include <fuzz/fuzz_support.h>
+#include <varifold/io/gltf.h>
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  varifold::fuzz::check(varifold::read_gltf(varifold::fuzz::bytes(data, size)));
+  return 0;
+}

@@ -1,0 +1,112 @@
+// fuzz_seeds FOLDER: writes a few small files of every format, one folder per target.
+#include <varifold/base/bytes.h>
+#include <varifold/io/container.h>
+#include <varifold/io/gltf.h>
+#include <varifold/io/obj.h>
+#include <varifold/io/output_file.h>
+#include <varifold/io/ply.h>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+
+using namespace varifold;
+
+namespace {
+
+TriangleMesh two_triangles() {
+  TriangleMesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  mesh.indices = {0, 1, 2, 0, 2, 3};
+  return mesh;
+}
+
+TriangleMesh with_everything() {
+  TriangleMesh mesh = two_triangles();
+  mesh.normals.assign(4, {0, 0, 1});
+  mesh.texcoords = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  mesh.colors.assign(4, {1, 2, 3, 4});
+  mesh.images.push_back({"skin", "image/png", "", {1, 2, 3}});
+  mesh.materials.resize(2);
+  mesh.materials[0].textures[0] = 0;
+  mesh.ranges = {{0, 0, 1}, {1, 1, 1}};
+  return mesh;
+}
+
+constexpr std::string_view kPolygonsPly =
+    "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty double y\n"
+    "property list uchar int t\nproperty short z\nelement face 2\nproperty list uchar int "
+    "vertex_index\nelement tristrips 1\nproperty list int int vertex_indices\nend_header\n"
+    "0 0 0 0\n1 0 1 7 0\n1 1 0 0\n0.5 0.2 0 0\n0 1 0 0\n5 0 1 2 3 4\n3 0 1 2\n6 0 1 2 -1 3 4\n";
+
+constexpr std::string_view kAllOfObj =
+    "mtllib a.mtl\nv 0 0 0 1 0 0\nv 1 0 0\nv 1 1 0\nv .2 .1 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\nusemtl "
+    "x\nf 1/1/1 2//1 3/1 -2 \\\n 5\nl 1 2\ng a\nf 1 2 3 # end\n";
+
+constexpr std::string_view kAsciiStl =
+    "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
+    "0\nendloop\nendfacet\nendsolid a\n";
+
+constexpr std::string_view kSceneGltf =
+    R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"children":[1],)"
+    R"("rotation":[0,0,1,0],"scale":[1,-1,1],"translation":[1,2,3]},{"mesh":0,"matrix":)"
+    R"([1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]}],"buffers":[{"byteLength":36,"uri":)"
+    R"("data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],)"
+    R"("bufferViews":[{"buffer":0,"byteLength":36,"byteStride":12}],"accessors":[{"bufferView":0,)"
+    R"("componentType":5126,"count":3,"type":"VEC3","sparse":{"count":1,"indices":{"bufferView":0,)"
+    R"("componentType":5121},"values":{"bufferView":0}}}],"meshes":[{"primitives":[{"attributes":)"
+    R"({"POSITION":0},"mode":5,"material":0}]}],"materials":[{"alphaMode":"MASK",)"
+    R"("pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],"textures":[{"source":0}],)"
+    R"("images":[{"uri":"data:image/png;base64,AQID"}]})";
+
+bool put(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+  std::error_code ignored;
+  std::filesystem::create_directories(path.parent_path(), ignored);
+  const auto written = write_file(path, bytes);
+  if (!written) std::fprintf(stderr, "%s\n", written.error().message.c_str());
+  return written.has_value();
+}
+
+/// A GLB as the target fuzz_glb takes it: JSON, 0xff, binary chunk.
+std::vector<std::byte> json_and_binary(const std::vector<std::byte>& glb) {
+  const std::size_t json_size = load<std::uint32_t>(glb.data() + 12);
+  std::vector<std::byte> seed(glb.begin() + 20,
+                              glb.begin() + 20 + static_cast<std::ptrdiff_t>(json_size));
+  seed.push_back(std::byte{0xff});
+  seed.insert(seed.end(), glb.begin() + 28 + static_cast<std::ptrdiff_t>(json_size), glb.end());
+  return seed;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::fprintf(stderr, "usage: fuzz_seeds FOLDER\n");
+    return 2;
+  }
+  const std::filesystem::path folder = argv[1];
+  const std::vector<Chunk> chunks{{fourcc("ABCD"), std::vector<std::byte>(300), true},
+                                  {fourcc("EFGH"), {std::byte{1}, std::byte{2}}, false},
+                                  {fourcc("NONE"), {}, false}};
+  std::vector<std::byte> stl(80);
+  append_little(stl, std::uint32_t{1});
+  stl.resize(stl.size() + 50);
+  bool done = true;
+  for (const auto& [name, mesh] :
+       {std::pair("plain", two_triangles()), std::pair("all", with_everything())}) {
+    done = put(folder / "ply" / (std::string(name) + "_ascii"), write_ply(mesh, {.ascii = true})) &&
+           done;
+    done = put(folder / "ply" / name, write_ply(mesh)) && done;
+    done = put(folder / "obj" / name, write_obj(mesh, "a").obj) && done;
+    done = put(folder / "gltf" / name, *write_glb(mesh)) && done;
+    done = put(folder / "glb" / name, json_and_binary(*write_glb(mesh))) && done;
+  }
+  done = put(folder / "ply" / "polygons", as_bytes(kPolygonsPly)) && done;
+  done = put(folder / "obj" / "forms", as_bytes(kAllOfObj)) && done;
+  done = put(folder / "stl" / "ascii", as_bytes(kAsciiStl)) && done;
+  done = put(folder / "stl" / "binary", stl) && done;
+  done = put(folder / "gltf" / "scene", as_bytes(kSceneGltf)) && done;
+  done = put(folder / "glb" / "scene", as_bytes(kSceneGltf)) && done;
+  done = put(folder / "container" / "three", *encode_container(fourcc("KIND"), chunks)) && done;
+  done = put(folder / "container" / "none", *encode_container(fourcc("KIND"), {})) && done;
+  return done ? 0 : 1;
+}

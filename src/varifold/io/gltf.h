@@ -1,0 +1,35 @@
+// glTF 2.0, as JSON (.gltf) and in one binary file (.glb).
+#pragma once
+
+#include <varifold/base/result.h>
+#include <varifold/io/imported_mesh.h>
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+namespace varifold {
+
+/// Reads a glTF 2.0 asset, JSON or binary, told by its first bytes. All triangles, strips and fans
+/// of the default scene (else the first scene, else all nodes without a parent, else all meshes)
+/// come into one mesh, moved by their nodes; triangles are sorted by material. Primitives of a node
+/// that name the same accessors share their vertices. Carried: POSITION, NORMAL, TEXCOORD_0,
+/// COLOR_0, materials, images; other attributes, morph targets, skins, animations, points and lines
+/// are dropped with a warning. Where only some primitives have normals, the others get those of
+/// their triangles; missing colours are white, missing texture coordinates (0, 0).
+///
+/// Buffers may be in the file, in data: URIs or in files below `folder`. KHR_mesh_quantization is
+/// read; required extensions that change what is drawn and are not known are an error.
+///
+/// O(file + vertices of all instances); instances may not multiply a file to more than 64 times its
+/// size and 256 MiB. Errors: kInvalidInput, kUnsupported or kUnreadable, beginning with the JSON
+/// element: "accessors[3]: 12 bytes past the end of bufferViews[1]".
+[[nodiscard]] Result<ImportedMesh> read_gltf(std::span<const std::byte> file,
+                                             const std::filesystem::path& folder = {});
+
+/// The mesh as a binary glTF with all attributes, materials and images; one primitive per material
+/// range. Floats are exact. Images that the mesh only names stay references.
+/// Errors: kFailed where the file would be longer than the 4 GiB that the format can express.
+[[nodiscard]] Result<std::vector<std::byte>> write_glb(const TriangleMesh& mesh);
+
+}  // namespace varifold

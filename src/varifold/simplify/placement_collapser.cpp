@@ -1,0 +1,221 @@
+#include <varifold/simplify/placement_collapser.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <varifold/simplify/bucket_queue.h>
+#include <varifold/simplify/classify.h>
+#include <varifold/simplify/edge_placement.h>
+#include <varifold/simplify/ring_merge.h>
+
+namespace varifold {
+
+namespace {
+
+constexpr std::uint32_t kReportEvery = 8192;
+
+struct NoPrefetch {
+  void later(std::uint32_t) const {}
+  void soon(std::uint32_t) const {}
+};
+
+class PlacementCollapser {
+ public:
+  PlacementCollapser(WorkingSurface& surface, const TriangleMesh& mesh,
+                     const PlacementOptions& options, PlacementLog& placement)
+      : surface_(surface),
+        options_(options),
+        placement_(placement),
+        merger_(surface, scratch_) {
+    gather_attributes(mesh);
+    bucket_.assign(surface.point_count(), kNone);
+    quadrics_.resize(surface.point_count());
+    placement_.first.push_back(0);
+  }
+
+  CollapseLog run() {
+    const std::uint32_t all_faces = std::max(1u, surface_.face_count);
+    for (std::uint32_t p = 0; p < surface_.point_count(); ++p) update_quadric(p);
+    for (std::uint32_t p = 0; p < surface_.point_count(); ++p) queue_best(p);
+    while (surface_.face_count > options_.target_faces) {
+      const std::uint32_t point = queue_.pop(BucketQueue::kBucketCount, NoPrefetch{});
+      if (point == kNone) break;
+      if (surface_.points[point].flags & PointState::kDead) continue;
+      if (bucket_[point] > queue_.current()) continue;
+      try_point(point);
+      const float done = 1.0f - static_cast<float>(surface_.face_count) / all_faces;
+      if (log_.entries.size() % kReportEvery == 0 &&
+          !report(options_.progress, "simplifying", done)) {
+        log_.cancelled = true;
+        break;
+      }
+    }
+    log_.queue_bytes = queue_.bytes() + bucket_.capacity() * sizeof(std::uint32_t) +
+                       quadrics_.capacity() * sizeof(PointQuadric);
+    return std::move(log_);
+  }
+
+ private:
+  void update_quadric(std::uint32_t point) {
+    quadrics_[point] = point_quadric(surface_, point, options_.quadric);
+  }
+
+  [[nodiscard]] EdgePlacement place(std::uint32_t from, std::uint32_t onto) {
+    // A feature vertex, or a corner, does not leave its feature for an inner one.
+    const VertexKind from_kind = surface_.points[from].kind;
+    const VertexKind kind = surface_.points[onto].kind;
+    const bool stays = (kind != VertexKind::kManifold && from_kind == VertexKind::kManifold) ||
+                       kind == VertexKind::kCorner || kind == VertexKind::kLocked;
+    const PlacementEdge edge{surface_.points[from].position, surface_.points[onto].position,
+                             quadrics_[from], quadrics_[onto]};
+    return stays ? placement_at_end(edge) : place_edge(edge);
+  }
+
+  [[nodiscard]] bool may_go(std::uint32_t from, std::uint32_t onto) {
+    const CollapseAlong along = kCollapseAlong[static_cast<int>(surface_.points[from].kind)];
+    if (along == CollapseAlong::kNothing) return false;
+    return along == CollapseAlong::kAnyEdge || edge_use(surface_, from, onto).is_feature();
+  }
+
+  void queue_best(std::uint32_t point) {
+    PointState& state = surface_.points[point];
+    float best = std::numeric_limits<float>::infinity();
+    state.target = kNone;
+    for (const RingEntry& entry : surface_.ring_span(point)) {
+      if (!may_go(point, entry.neighbor)) continue;
+      const float cost = place(point, entry.neighbor).error;
+      if (!(cost < best)) continue;
+      best = cost;
+      state.target = entry.neighbor;
+    }
+    bucket_[point] = kNone;
+    if (state.target == kNone) return;
+    bucket_[point] = BucketQueue::bucket_of(best);
+    queue_.push(point, bucket_[point]);
+  }
+
+  // Collapses the point by its cheapest legal candidate, or queues it where that belongs.
+  void try_point(std::uint32_t point) {
+    candidates_.clear();
+    for (const RingEntry& entry : surface_.ring_span(point)) {
+      if (!may_go(point, entry.neighbor)) continue;
+      const EdgePlacement placement = place(point, entry.neighbor);
+      candidates_.push_back({placement.error, entry.neighbor, placement});
+    }
+    std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
+      return a.cost != b.cost ? a.cost < b.cost : a.target < b.target;
+    });
+    bucket_[point] = kNone;
+    for (const Candidate& candidate : candidates_) {
+      if (test_placed_collapse(surface_, {point, candidate.target, candidate.placement.position},
+                               options_.legality) != Refusal::kLegal)
+        continue;
+      if (!merger_.match_wedges(nullptr, point, candidate.target)) continue;
+      const std::uint32_t bucket = BucketQueue::bucket_of(candidate.cost);
+      if (bucket > queue_.current()) {
+        bucket_[point] = bucket;
+        queue_.push(point, bucket);
+      } else {
+        collapse(point, candidate.target, candidate.placement);
+      }
+      return;
+    }
+  }
+
+  void collapse(std::uint32_t from, std::uint32_t onto, const EdgePlacement& placement) {
+    log_placement(from, onto, placement.position);
+    const std::size_t first_removed = log_.removed_faces.size();
+    merger_.merge(from, onto, log_.removed_faces);
+    const std::size_t removed = log_.removed_faces.size() - first_removed;
+    surface_.points[from].flags |= PointState::kDead;
+    surface_.points[onto].position = placement.position;
+    surface_.face_count -= static_cast<std::uint32_t>(removed);
+    const float step = placement.weight > 0 ? std::sqrt(placement.error / placement.weight) : 0.0f;
+    float& error = surface_.points[onto].error;
+    error = std::max(error, surface_.points[from].error) + step;
+    log_.entries.push_back({from, onto, error, static_cast<std::uint16_t>(queue_.current()),
+                            static_cast<std::uint16_t>(removed)});
+
+    // All quadrics around have changed, and with them all candidates that involve them.
+    const auto ring = surface_.ring_span(onto);
+    around_.assign(ring.begin(), ring.end());
+    update_quadric(onto);
+    for (const RingEntry& entry : around_) update_quadric(entry.neighbor);
+    queue_best(onto);
+    for (const RingEntry& entry : around_) queue_best(entry.neighbor);
+  }
+
+  // Attributes at the new place are interpolated along the edge, wedge by wedge.
+  void log_placement(std::uint32_t from, std::uint32_t onto, const Vec3& position) {
+    const Vec3 start = surface_.points[from].position;
+    const Vec3 edge = surface_.points[onto].position - start;
+    const float length = glm::dot(edge, edge);
+    const float t =
+        length > 0 ? std::clamp(glm::dot(position - start, edge) / length, 0.0f, 1.0f) : 1.0f;
+    const Vec3 in_model = Vec3(DVec3(position) / surface_.scale + surface_.center);
+    const std::uint32_t first = surface_.wedge.first_of(onto);
+    for (std::uint32_t wedge = first; wedge < first + surface_.wedge.count_of(onto); ++wedge) {
+      const auto& moved_onto = scratch_.moved_onto;
+      const auto found = std::find(moved_onto.begin(), moved_onto.end(), wedge);
+      if (found != moved_onto.end())
+        blend_attributes(scratch_.moved_from[found - moved_onto.begin()], wedge, t);
+      push_attributes(wedge, in_model);
+    }
+    placement_.first.push_back(static_cast<std::uint32_t>(placement_.wedge.size()));
+  }
+
+  // The attributes of every wedge; without wedge tables there are none.
+  void gather_attributes(const TriangleMesh& mesh) {
+    for (const std::uint32_t v : surface_.wedge.vertex_of) {
+      if (mesh.has_normals()) attributes_.normals.push_back(mesh.normals[v]);
+      if (mesh.has_texcoords()) attributes_.texcoords.push_back(mesh.texcoords[v]);
+      if (mesh.has_colors()) attributes_.colors.push_back(mesh.colors[v]);
+    }
+  }
+
+  void blend_attributes(std::uint32_t from, std::uint32_t onto, float t) {
+    TriangleMesh& a = attributes_;
+    if (a.has_normals())
+      a.normals[onto] = normalize_or_zero((1 - t) * a.normals[from] + t * a.normals[onto]);
+    if (a.has_texcoords()) a.texcoords[onto] = (1 - t) * a.texcoords[from] + t * a.texcoords[onto];
+    if (a.has_colors())
+      a.colors[onto] = Color((1 - t) * Vec4(a.colors[from]) + t * Vec4(a.colors[onto]) + 0.5f);
+  }
+
+  void push_attributes(std::uint32_t wedge, const Vec3& position) {
+    placement_.wedge.push_back(wedge);
+    TriangleMesh& out = placement_.attributes;
+    out.positions.push_back(position);
+    if (attributes_.has_normals()) out.normals.push_back(attributes_.normals[wedge]);
+    if (attributes_.has_texcoords()) out.texcoords.push_back(attributes_.texcoords[wedge]);
+    if (attributes_.has_colors()) out.colors.push_back(attributes_.colors[wedge]);
+  }
+
+  struct Candidate {
+    float cost;
+    std::uint32_t target;
+    EdgePlacement placement;
+  };
+
+  WorkingSurface& surface_;
+  const PlacementOptions& options_;
+  PlacementLog& placement_;
+  MergeScratch scratch_;
+  RingMerger merger_;
+  TriangleMesh attributes_;
+  std::vector<PointQuadric> quadrics_;
+  CollapseLog log_;
+  BucketQueue queue_;
+  std::vector<std::uint32_t> bucket_;  // per point: of its valid entry in the queue, or kNone
+  std::vector<Candidate> candidates_;
+  std::vector<RingEntry> around_;
+};
+
+}  // namespace
+
+CollapseLog collapse_with_placement(WorkingSurface& surface, const TriangleMesh& mesh,
+                                    const PlacementOptions& options, PlacementLog& placement) {
+  return PlacementCollapser(surface, mesh, options, placement).run();
+}
+
+}  // namespace varifold
