@@ -12,6 +12,8 @@ namespace {
 constexpr std::uint32_t kLastSlot = ProgressiveMeshData::kLastSlot;
 constexpr std::uint32_t kNoSlot = ProgressiveMeshData::kNoSlot;
 
+constexpr std::size_t kLongRecord = 512;  // bytes
+
 Error fault_at(std::size_t byte, const std::string& what) {
   return {ErrorKind::kInvalidInput, "byte " + std::to_string(byte) + ": " + what};
 }
@@ -192,7 +194,7 @@ Result<void> ProgressiveStreamReader::read_splits() {
   offset_ += position / 8;
   first_bit_ = position % 8;
   // Long records are not tried again for every byte that arrives.
-  try_at_ = pending_.size() + pending_.size() / 8 + 1;
+  try_at_ = pending_.size() + (pending_.size() < kLongRecord ? 1 : pending_.size() / 8);
   if (level() == header_.levels) return check_end();
   if (level() >= last_level_) pending_.clear();
   return {};
