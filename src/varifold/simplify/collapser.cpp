@@ -202,10 +202,17 @@ void Collapser::collapse(Cell& cell, std::uint32_t from, std::uint32_t onto) {
 void Collapser::touch(Cell& cell, std::uint32_t point) {
   PointState& state = surface_.points[point];
   state.flags |= PointState::kDirty;
-  if (!(state.flags & PointState::kBlocked)) return;
-  if (kCollapseAlong[static_cast<int>(state.kind)] == CollapseAlong::kNothing) return;
+  wake(cell, point);
+}
+
+bool Collapser::wake(Cell& cell, std::uint32_t point) {
+  PointState& state = surface_.points[point];
+  if (!(state.flags & PointState::kBlocked) || (state.flags & PointState::kDead)) return false;
+  if (kCollapseAlong[static_cast<int>(state.kind)] == CollapseAlong::kNothing) return false;
   state.flags &= ~PointState::kBlocked;
+  state.flags |= PointState::kDirty;
   requeue(cell, point, cell.queue.current());
+  return true;
 }
 
 }  // namespace varifold

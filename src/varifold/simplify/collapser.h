@@ -51,6 +51,10 @@ class Collapser {
   /// Finds the best collapse of every point in the cell and queues it.
   void queue_all(Cell& cell);
 
+  /// Queues a blocked point of the cell again, to be looked at first. False where it is not blocked
+  /// or can never go.
+  bool wake(Cell& cell, std::uint32_t point);
+
   /// Collapses in order of cost until the next bucket is `limit`. With `confined`, points with a
   /// neighbour outside the cell go to `deferred` instead.
   void drain(Cell& cell, std::uint32_t limit, bool confined);

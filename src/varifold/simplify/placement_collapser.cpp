@@ -6,6 +6,7 @@
 #include <varifold/simplify/bucket_queue.h>
 #include <varifold/simplify/classify.h>
 #include <varifold/simplify/edge_placement.h>
+#include <varifold/simplify/packed_normal.h>
 #include <varifold/simplify/ring_merge.h>
 
 namespace varifold {
@@ -107,7 +108,8 @@ class PlacementCollapser {
     });
     bucket_[point] = kNone;
     for (const Candidate& candidate : candidates_) {
-      if (test_placed_collapse(surface_, {point, candidate.target, candidate.placement.position},
+      if (test_placed_collapse(surface_, {point, candidate.target, candidate.placement.position,
+                                           merged_normal(point, candidate.target)},
                                options_.legality) != Refusal::kLegal)
         continue;
       if (!merger_.match_wedges(nullptr, point, candidate.target)) continue;
@@ -122,12 +124,18 @@ class PlacementCollapser {
     }
   }
 
+  [[nodiscard]] std::uint32_t merged_normal(std::uint32_t from, std::uint32_t onto) const {
+    return pack_normal(quadrics_[from].weight * unpack_normal(surface_.points[from].normal) +
+                       quadrics_[onto].weight * unpack_normal(surface_.points[onto].normal));
+  }
+
   void collapse(std::uint32_t from, std::uint32_t onto, const EdgePlacement& placement) {
     log_placement(from, onto, placement.position);
     const std::size_t first_removed = log_.removed_faces.size();
     merger_.merge(from, onto, log_.removed_faces);
     const std::size_t removed = log_.removed_faces.size() - first_removed;
     surface_.points[from].flags |= PointState::kDead;
+    surface_.points[onto].normal = merged_normal(from, onto);
     surface_.points[onto].position = placement.position;
     surface_.face_count -= static_cast<std::uint32_t>(removed);
     const float step = placement.weight > 0 ? std::sqrt(placement.error / placement.weight) : 0.0f;

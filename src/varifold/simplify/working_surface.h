@@ -24,6 +24,7 @@ struct alignas(32) PointState {
   float error = 0;                ///< estimate of how far the surface around has moved
   std::uint32_t target = kNone;   ///< the best collapse found last
   float step = 0;                 ///< estimate of the distance that it would move the surface
+  std::uint32_t normal = 0;       ///< of the input around the point (packed_normal.h)
   std::uint16_t ring_size = 0;
   VertexKind kind = VertexKind::kManifold;
   std::uint8_t flags = 0;
