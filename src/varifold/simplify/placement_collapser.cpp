@@ -109,7 +109,7 @@ class PlacementCollapser {
     bucket_[point] = kNone;
     for (const Candidate& candidate : candidates_) {
       if (test_placed_collapse(surface_, {point, candidate.target, candidate.placement.position,
-                                           merged_normal(point, candidate.target)},
+                                           merged_normal(point, candidate.target, candidate.placement.position)},
                                options_.legality) != Refusal::kLegal)
         continue;
       if (!merger_.match_wedges(nullptr, point, candidate.target)) continue;
@@ -124,7 +124,10 @@ class PlacementCollapser {
     }
   }
 
-  [[nodiscard]] std::uint32_t merged_normal(std::uint32_t from, std::uint32_t onto) const {
+  // The input's normal where the point will be: its own if it stays, else the mean of both.
+  [[nodiscard]] std::uint32_t merged_normal(std::uint32_t from, std::uint32_t onto,
+                                            const Vec3& position) const {
+    if (position == surface_.points[onto].position) return surface_.points[onto].normal;
     return pack_normal(quadrics_[from].weight * unpack_normal(surface_.points[from].normal) +
                        quadrics_[onto].weight * unpack_normal(surface_.points[onto].normal));
   }
@@ -135,7 +138,7 @@ class PlacementCollapser {
     merger_.merge(from, onto, log_.removed_faces);
     const std::size_t removed = log_.removed_faces.size() - first_removed;
     surface_.points[from].flags |= PointState::kDead;
-    surface_.points[onto].normal = merged_normal(from, onto);
+    surface_.points[onto].normal = merged_normal(from, onto, placement.position);
     surface_.points[onto].position = placement.position;
     surface_.face_count -= static_cast<std::uint32_t>(removed);
     const float step = placement.weight > 0 ? std::sqrt(placement.error / placement.weight) : 0.0f;
