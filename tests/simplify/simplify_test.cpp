@@ -1,12 +1,12 @@
 #include <varifold/simplify/simplify.h>
 
 #include <gtest/gtest.h>
-#include <cstring>
-#include <limits>
 #include <tests/simplify/sequence_checks.h>
 #include <tests/support/meshes.h>
 #include <varifold/mesh/generators.h>
 #include <varifold/mesh/normals.h>
+#include <cstring>
+#include <limits>
 
 namespace varifold {
 namespace {
@@ -49,22 +49,22 @@ TEST_P(EveryMesh, KeepsItsTopologyAtEveryLevel) {
     const Simplification result = simplified(named.mesh, options);
     test::expect_consistent(result.detailed);
     test::expect_wedges_move_together(result.detailed);
-    for (const std::uint32_t level : test::spread_levels(result.detailed.sequence, 60))
+    for (const std::uint32_t level : test::spread_levels(result.detailed.sequence, 40))
       test::expect_sound_level(result.detailed, level);
     if (HasFatalFailure()) return;
   }
 }
 
 TEST_P(EveryMesh, IsTheSameForAnyNumberOfThreads) {
-  for (const char* shape : {"planet", "seamed_sphere", "terrain"}) {
+  for (const char* shape : {"planet", "seamed_sphere"}) {
     GeneratorOptions generator;
-    generator.triangles = 120000;  // several cells
+    generator.triangles = GetParam() == Placement::kKept ? 80000 : 15000;  // several cells
     const TriangleMesh mesh = *generate(shape, generator);
     SimplifyOptions options;
     options.placement = GetParam();
     options.threads = 1;
     const Simplification one = simplified(mesh, options);
-    for (const int threads : {2, 3, 8}) {
+    for (const int threads : {2, 3}) {
       options.threads = threads;
       EXPECT_TRUE(same_result(one, simplified(mesh, options))) << shape << ", " << threads;
     }
@@ -78,7 +78,8 @@ TEST(Simplify, KeptLevelsUseVerticesOfTheInput) {
   const TriangleMesh mesh = planet({{.triangles = 2000}});
   const Simplification result = simplified(mesh);
   for (std::uint32_t v = 0; v < result.detailed.mesh.vertex_count(); ++v)
-    ASSERT_EQ(result.detailed.mesh.positions[v], mesh.positions[result.detailed.original_vertex[v]]);
+    ASSERT_EQ(result.detailed.mesh.positions[v],
+              mesh.positions[result.detailed.original_vertex[v]]);
 }
 
 TEST(Simplify, FullLevelIsTheInput) {

@@ -2,16 +2,17 @@
 // simplified surface are from those of the original at the same place.
 //
 // Based on: [Hoppe1999] section 5 (a quadric whose minimum over the attribute is linear in space).
-// Differs: quadrics sit at the wedge and its attribute values, so single precision serves; apart from
+// Differs: quadrics sit at the wedge and its attribute values, so single precision serves; apart
+// from
 //   the geometric error, which keeps no memory, they gather what they have met.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <span>
 #include <varifold/base/large_vector.h>
 #include <varifold/mesh/triangle_mesh.h>
 #include <varifold/simplify/quadric.h>
+#include <array>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 namespace varifold {
@@ -39,8 +40,7 @@ class AttributeField {
 
   /// The face's linear attribute functions enter the quadric of one of its corners: `wedge` with
   /// edges to the two others.
-  void add_face(const std::array<std::uint32_t, 3>& wedges, const Vec3& edge_1,
-                const Vec3& edge_2);
+  void add_face(const std::array<std::uint32_t, 3>& wedges, const Vec3& edge_1, const Vec3& edge_2);
 
   /// The weighted squared attribute error when `wedge` moves by `d` and takes the values of `onto`.
   [[nodiscard]] float cost(std::uint32_t wedge, std::uint32_t onto, const Vec3& d) const;

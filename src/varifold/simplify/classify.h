@@ -1,8 +1,8 @@
 // Which edges are features, and of what kind each point therefore is.
 #pragma once
 
-#include <cstdint>
 #include <varifold/simplify/working_surface.h>
+#include <cstdint>
 
 namespace varifold {
 

@@ -4,10 +4,10 @@
 //   legality is tested when a candidate comes up, since few fail.
 #include <varifold/simplify/collapser.h>
 
+#include <varifold/simplify/classify.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <varifold/simplify/classify.h>
 
 namespace varifold {
 
@@ -173,8 +173,7 @@ void Collapser::try_others(Cell& cell, std::uint32_t point) {
 
 Refusal Collapser::test(Cell& cell, std::uint32_t from, std::uint32_t onto) {
   const Refusal refusal = test_collapse(surface_, from, onto, options_.legality);
-  if (refusal != Refusal::kLegal || (!attributes_ && !surface_.wedge.has_seams()))
-    return refusal;
+  if (refusal != Refusal::kLegal || (!attributes_ && !surface_.wedge.has_seams())) return refusal;
   RingMerger merger(surface_, cell.scratch);
   return merger.match_wedges(attributes_, from, onto) ? Refusal::kLegal : Refusal::kSeam;
 }

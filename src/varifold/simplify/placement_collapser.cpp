@@ -1,13 +1,13 @@
 #include <varifold/simplify/placement_collapser.h>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <varifold/simplify/bucket_queue.h>
 #include <varifold/simplify/classify.h>
 #include <varifold/simplify/edge_placement.h>
 #include <varifold/simplify/packed_normal.h>
 #include <varifold/simplify/ring_merge.h>
+#include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace varifold {
 
@@ -24,10 +24,7 @@ class PlacementCollapser {
  public:
   PlacementCollapser(WorkingSurface& surface, const TriangleMesh& mesh,
                      const PlacementOptions& options, PlacementLog& placement)
-      : surface_(surface),
-        options_(options),
-        placement_(placement),
-        merger_(surface, scratch_) {
+      : surface_(surface), options_(options), placement_(placement), merger_(surface, scratch_) {
     gather_attributes(mesh);
     bucket_.assign(surface.point_count(), kNone);
     quadrics_.resize(surface.point_count());
@@ -108,9 +105,11 @@ class PlacementCollapser {
     });
     bucket_[point] = kNone;
     for (const Candidate& candidate : candidates_) {
-      if (test_placed_collapse(surface_, {point, candidate.target, candidate.placement.position,
-                                           merged_normal(point, candidate.target, candidate.placement.position)},
-                               options_.legality) != Refusal::kLegal)
+      if (test_placed_collapse(
+              surface_,
+              {point, candidate.target, candidate.placement.position,
+               merged_normal(point, candidate.target, candidate.placement.position)},
+              options_.legality) != Refusal::kLegal)
         continue;
       if (!merger_.match_wedges(nullptr, point, candidate.target)) continue;
       const std::uint32_t bucket = BucketQueue::bucket_of(candidate.cost);

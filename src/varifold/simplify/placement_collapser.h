@@ -5,11 +5,11 @@
 //   queue. Preserving the volume [LindstromTurk1998] was tried and changed nothing.
 #pragma once
 
-#include <cstdint>
 #include <varifold/base/progress.h>
 #include <varifold/simplify/collapse_rounds.h>
 #include <varifold/simplify/point_quadric.h>
 #include <varifold/simplify/working_surface.h>
+#include <cstdint>
 #include <vector>
 
 namespace varifold {
@@ -30,8 +30,7 @@ struct PlacementOptions {
 
 /// Collapses one edge after the other until nothing legal is left or the target is reached; one
 /// thread. Positions of `surface` and attributes of its wedges change.
-[[nodiscard]] CollapseLog collapse_with_placement(WorkingSurface& surface,
-                                                  const TriangleMesh& mesh,
+[[nodiscard]] CollapseLog collapse_with_placement(WorkingSurface& surface, const TriangleMesh& mesh,
                                                   const PlacementOptions& options,
                                                   PlacementLog& placement);
 

@@ -1,13 +1,13 @@
 #include <varifold/simplify/simplify.h>
 
-#include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <varifold/simplify/collapse_rounds.h>
 #include <varifold/simplify/deviation.h>
 #include <varifold/simplify/placement_collapser.h>
 #include <varifold/simplify/sequence_builder.h>
 #include <varifold/simplify/stop_report.h>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
 
 namespace varifold {
 
@@ -21,7 +21,8 @@ double seconds_since(Clock::time_point start) {
 
 std::string check_input(const TriangleMesh& mesh) {
   const std::size_t vertices = mesh.positions.size();
-  if (vertices >= kNone || mesh.indices.size() / 3 >= kNone / 3) return "mesh too large for 32 bits";
+  if (vertices >= kNone || mesh.indices.size() / 3 >= kNone / 3)
+    return "mesh too large for 32 bits";
   if (mesh.indices.size() % 3 != 0) return "the number of indices is no multiple of three";
   for (std::size_t i = 0; i < mesh.indices.size(); ++i)
     if (mesh.indices[i] >= vertices)
