@@ -132,6 +132,21 @@ TEST(Simplify, StopsAtTheError) {
   test::expect_consistent(result.detailed);
 }
 
+TEST(Simplify, ASequenceCutByErrorIsThatOfTheWholeOne) {
+  const TriangleMesh mesh = planet({{.triangles = 3000}});
+  SimplifyOptions options;
+  options.placement = Placement::kOptimal;
+  const DetailedMesh whole = simplified(mesh, options).detailed;
+  options.max_error = 0.02f;
+  const DetailedMesh cut = simplified(mesh, options).detailed;
+  test::expect_consistent(cut);
+  const std::uint32_t level = whole.sequence.step_count() - cut.sequence.step_count();
+  ASSERT_GT(level, 0u);
+  EXPECT_EQ(mesh_at_level(cut, 0).positions, mesh_at_level(whole, level).positions);
+  EXPECT_EQ(mesh_at_level(cut, 0).indices, mesh_at_level(whole, level).indices);
+  EXPECT_EQ(cut.sequence.placed_vertex.size(), cut.sequence.first_placed.back());
+}
+
 TEST(Simplify, PerFaceNormalsAreNoWalls) {
   TriangleMesh mesh = planet({{.triangles = 5000}});
   TriangleMesh split;

@@ -67,13 +67,24 @@ void cut_below(DetailedMesh& detailed, std::uint32_t level) {
   drop(sequence.vertices);
   drop(sequence.triangles);
   drop(sequence.error);
-  if (sequence.moves_vertices()) drop(sequence.first_placed);
+  if (sequence.moves_vertices()) {
+    drop(sequence.first_placed);
+    const std::uint32_t unused = sequence.first_placed.front();
+    for (std::uint32_t& first : sequence.first_placed) first -= unused;
+    const auto drop_unused = [&](auto& values) {
+      if (!values.empty()) values.erase(values.begin(), values.begin() + unused);
+    };
+    drop_unused(sequence.placed_vertex);
+    drop_unused(sequence.placed.positions);
+    drop_unused(sequence.placed.normals);
+    drop_unused(sequence.placed.texcoords);
+    drop_unused(sequence.placed.colors);
+  }
   for (std::uint32_t& l : sequence.triangle_level) l = l > level ? l - level : 0;
 }
 
-CollapseLog run_kept(WorkingSurface& surface, AttributeField& attributes, Collapser& collapser,
+CollapseLog run_kept(WorkingSurface& surface, Collapser& collapser,
                      const SimplifyOptions& options) {
-  if (!attributes.empty()) add_faces_to_attributes(surface, attributes, options.threads);
   RoundOptions rounds;
   rounds.target_faces = options.target_triangles;
   rounds.threads = options.threads;
@@ -81,13 +92,13 @@ CollapseLog run_kept(WorkingSurface& surface, AttributeField& attributes, Collap
   return run_rounds(surface, collapser, rounds);
 }
 
-CollapseLog run_placed(WorkingSurface& surface, const TriangleMesh& mesh,
-                       const SimplifyOptions& options, PlacementLog& placement) {
+CollapseLog run_placed(const PlacementInput& input, const SimplifyOptions& options,
+                       PlacementLog& placement) {
   PlacementOptions placement_options;
   placement_options.legality = options.legality;
   placement_options.target_faces = options.target_triangles;
   placement_options.progress = options.progress;
-  return collapse_with_placement(surface, mesh, placement_options, placement);
+  return collapse_with_placement(input, placement_options, placement);
 }
 
 }  // namespace
@@ -106,14 +117,15 @@ Result<Simplification> simplify(const TriangleMesh& mesh, const SimplifyOptions&
   const std::uint32_t all_faces = surface.face_count;
   const bool placed = options.placement == Placement::kOptimal;
   AttributeField attributes;
-  if (surface_options.with_wedges && !placed)
+  if (surface_options.with_wedges)
     attributes = AttributeField(mesh, surface.wedge.vertex_of, options.attributes);
+  if (!attributes.empty()) add_faces_to_attributes(surface, attributes, options.threads);
   CollapserOptions collapser_options;
   collapser_options.legality = options.legality;
   Collapser collapser(surface, &attributes, collapser_options);
   PlacementLog placement;
-  const CollapseLog log = placed ? run_placed(surface, mesh, options, placement)
-                                 : run_kept(surface, attributes, collapser, options);
+  const CollapseLog log = placed ? run_placed({surface, mesh, &attributes}, options, placement)
+                                 : run_kept(surface, collapser, options);
   if (log.cancelled) return fail(ErrorKind::kCancelled, "cancelled while simplifying");
   result.scratch_bytes = surface.bytes() + attributes.bytes() + log.queue_bytes;
 
