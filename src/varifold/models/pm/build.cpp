@@ -1,7 +1,9 @@
 #include <varifold/models/pm/build.h>
 
-#include <algorithm>
+#include <varifold/models/pm/error_code.h>
+#include <varifold/models/pm/slot_order.h>
 #include <varifold/simplify/sequence_replay.h>
+#include <algorithm>
 
 namespace varifold {
 
@@ -40,12 +42,33 @@ void link_placements(const CollapseSequence& sequence, ProgressiveMeshData& data
   }
 }
 
-// The same mesh with the corner of greatest number, the newest, first in each triangle.
-void rotate_newest_first(TriangleMesh& mesh) {
-  for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
-    const auto corner = mesh.indices.begin() + static_cast<std::ptrdiff_t>(t);
-    std::rotate(corner, std::max_element(corner, corner + 3), corner + 3);
+// Turns every triangle so that the corner of greatest number, the newest when the triangle appears,
+// comes first. `corners` are those of each triangle when it appears.
+void rotate_newest_first(std::vector<std::uint32_t>& corners, std::vector<std::uint32_t>& slots) {
+  std::vector<std::uint8_t> newest(corners.size() / 3);
+  for (std::size_t t = 0; t < newest.size(); ++t) {
+    const auto first = corners.begin() + static_cast<std::ptrdiff_t>(3 * t);
+    const auto greatest = std::max_element(first, first + 3);
+    newest[t] = static_cast<std::uint8_t>(greatest - first);
+    std::rotate(first, greatest, first + 3);
   }
+  for (std::uint32_t& entry : slots) {
+    const std::uint32_t slot = entry & ~kLastSlot;
+    if (slot == kNoSlot) continue;
+    const std::uint32_t corner = (slot % 3 + 3 - newest[slot / 3]) % 3;
+    entry = (entry & kLastSlot) | (slot - slot % 3 + corner);
+  }
+}
+
+// Rounded up to their stored form, and never rising with the level.
+std::vector<float> stored_errors(const std::vector<float>& errors) {
+  std::vector<float> stored(errors.size());
+  std::uint32_t greatest = 0;
+  for (std::size_t level = errors.size(); level-- > 0;) {
+    greatest = std::max(greatest, error_code(errors[level]));
+    stored[level] = error_of_code(greatest);
+  }
+  return stored;
 }
 
 }  // namespace
@@ -58,13 +81,11 @@ ProgressiveMesh build_progressive_mesh(const DetailedMesh& detailed) {
   data.base_triangles = sequence.triangles.empty() ? 0 : sequence.triangles[0];
   data.splits.resize(steps);
   data.target = sequence.target;
-  data.error = sequence.error;
+  data.error = stored_errors(sequence.error);
   data.error_is_measured = sequence.error_is_measured;
   if (detailed.mesh.ranges.size() > 1) data.triangle_level = sequence.triangle_level;
 
-  DetailedMesh rotated{detailed.mesh, sequence, {}, {}};
-  rotate_newest_first(rotated.mesh);
-  SequenceReplay replay(rotated);
+  SequenceReplay replay(detailed);
   std::vector<std::uint32_t> step_slots;
   std::vector<std::uint32_t> backwards;
   backwards.reserve(3 * std::size_t{detailed.mesh.triangle_count()});
@@ -79,8 +100,10 @@ ProgressiveMesh build_progressive_mesh(const DetailedMesh& detailed) {
                       static_cast<std::uint8_t>(sequence.triangles[k + 1] - sequence.triangles[k])};
   }
   data.slots.assign(backwards.rbegin(), backwards.rend());
-  data.mesh = std::move(rotated.mesh);
+  data.mesh = detailed.mesh;
   data.mesh.indices = replay.corners();
+  rotate_newest_first(data.mesh.indices, data.slots);
+  sort_slots(data.slots);
   link_placements(sequence, data);
   return ProgressiveMesh(std::move(data));
 }

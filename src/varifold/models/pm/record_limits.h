@@ -1,0 +1,13 @@
+// What one split can hold; see VertexSplit.
+#pragma once
+
+#include <cstdint>
+
+namespace varifold::pm {
+
+inline constexpr std::uint32_t kMaxWedges = 255;
+inline constexpr std::uint32_t kMaxTriangles = 255;
+inline constexpr std::uint32_t kMaxSlots = 65535 - kMaxWedges;  // room for kNoSlot
+inline constexpr std::uint32_t kMaxPlaced = 255;
+
+}  // namespace varifold::pm
