@@ -11,6 +11,7 @@ void add_info(CLI::App& app, CommandRunner& runner);
 void add_simplify(CLI::App& app, CommandRunner& runner);
 void add_build(CLI::App& app, CommandRunner& runner);
 void add_extract(CLI::App& app, CommandRunner& runner);
+void add_check(CLI::App& app, CommandRunner& runner);
 void add_render(CLI::App& app, CommandRunner& runner);
 
 }  // namespace varifold::cli

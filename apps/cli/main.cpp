@@ -13,6 +13,7 @@ void add_commands(CLI::App& app, CommandRunner& runner) {
   add_simplify(app, runner);
   add_build(app, runner);
   add_extract(app, runner);
+  add_check(app, runner);
   add_render(app, runner);
   app.footer(
       "Exit codes: 0 done; 1 the job failed, or a check found faults; 2 wrong usage;\n"
@@ -28,9 +29,10 @@ bool wants_json(int argc, char** argv) {
 
 // CLI11 says no more of an unknown command than that one is required.
 std::string explain(const CLI::App& app, const std::string& first, const CLI::ParseError& error) {
-  const bool is_name = !first.empty() && first[0] != '-';
-  if (is_name && app.get_subcommand_no_throw(first) == nullptr) return "no command '" + first + "'";
-  return error.what();
+  if (first.empty() || first[0] == '-') return error.what();
+  for (const CLI::App* const command : app.get_subcommands({}))
+    if (command->check_name(first)) return error.what();
+  return "no command '" + first + "'";
 }
 
 ExitCode tell_usage(const std::string& message, bool json) {
