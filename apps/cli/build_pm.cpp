@@ -22,12 +22,15 @@ struct BuiltModel {
   ProgressiveMesh model;
   StopReport stop;
   InputFaults faults;
-  double simplify_seconds = 0;
+  double read_seconds = 0, simplify_seconds = 0, measure_seconds = 0, model_seconds = 0;
 };
 
 // Lets go of everything but the model on its way.
 Result<BuiltModel> build_model(const BuildCommand& command, const std::filesystem::path& input) {
+  BuiltModel built;
+  const Stopwatch read_watch;
   auto imported = read_surface(input);
+  built.read_seconds = read_watch.seconds();
   if (!imported) return tl::unexpected(std::move(imported.error()));
   prepare_mesh(imported->mesh, command.prepare);
   SimplifyOptions options = simplify_options(command.flags, command.common, input);
@@ -36,11 +39,13 @@ Result<BuiltModel> build_model(const BuildCommand& command, const std::filesyste
   end_progress();
   if (!result) return fail_in(input.string(), std::move(result.error()));
   imported->mesh = {};
-  BuiltModel built;
   built.stop = result->stop;
   built.faults = result->faults;
   built.simplify_seconds = result->collapse_seconds;
+  built.measure_seconds = result->measure_seconds;
+  const Stopwatch model_watch;
   built.model = build_progressive_mesh(result->detailed);
+  built.model_seconds = model_watch.seconds();
   return built;
 }
 
@@ -74,14 +79,20 @@ CommandResult run_build(const BuildCommand& command) {
   const auto built = build_model(command, input);
   if (!built) return tl::unexpected(built.error());
   if (auto done = check_interrupted(input); !done) return tl::unexpected(done.error());
+  const Stopwatch write_watch;
   const auto file = write_model(built->model, output, command.file);
   if (!file) return tl::unexpected(file.error());
 
+  const double write_seconds = write_watch.seconds();
   Report report;
   report_model(*built, *file, report);
   report_stop(built->stop, input, report);
-  report.seconds("simplify_seconds", "time of the collapses", built->simplify_seconds);
-  report.seconds("seconds", "time", watch.seconds());
+  report.seconds("read_seconds", "time to read", built->read_seconds);
+  report.seconds("simplify_seconds", "to collapse", built->simplify_seconds);
+  report.seconds("measure_seconds", "to measure errors", built->measure_seconds);
+  report.seconds("model_seconds", "to build the model", built->model_seconds);
+  report.seconds("write_seconds", "to write", write_seconds);
+  report.seconds("seconds", "in all", watch.seconds());
   report.bytes("peak_rss_bytes", "memory at most", peak_rss_bytes());
   return finish(report, command.common, output);
 }

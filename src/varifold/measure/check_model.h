@@ -13,7 +13,7 @@ namespace varifold {
 
 struct ModelCheckOptions {
   std::uint32_t all_levels_up_to = 2000;  ///< a model of more levels is checked at a spread of them
-  std::uint32_t spread_levels = 48;       ///< how many; the base and the full level are among them
+  std::uint32_t spread_levels = 32;       ///< how many; the base and the full level are among them
   std::uint32_t distance_levels = 8;      ///< levels whose error is measured anew
   int threads = 0;                        ///< 0 = all
   Progress progress;
@@ -39,7 +39,8 @@ struct ModelCheck {
 /// - degenerate_triangle: two corners at one point
 /// - new_duplicate_triangle, new_nonmanifold_edge, new_misoriented_edge: more than the full mesh
 /// has
-/// - flipped_triangle: see flipped_triangles(), against the full mesh
+/// - flipped_triangle: see flipped_triangles(), against the full mesh; where positions were rounded
+///   only triangles that are thicker than that
 /// - error_not_monotone: negative, not finite, or rising with the level
 /// - error_exceeded: a vertex of the full mesh is farther from the level's surface than its error;
 ///   looked at where errors are measured. Where positions were rounded, the error of the full level
