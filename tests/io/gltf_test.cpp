@@ -272,6 +272,8 @@ TEST(Gltf, NamesTheElementOfEveryFault) {
   };
   EXPECT_EQ(message_of(read_gltf(as_bytes("{\"a\":\n[1,}"))), "line 2, byte 10: not valid JSON");
   EXPECT_EQ(message_of(read_gltf(as_bytes("[]"))), "the JSON is not an object");
+  EXPECT_EQ(message_of(read_gltf(as_bytes("{\"a[\\\"[\":" + std::string(2000, '[')))),
+            "line 1, byte 1008: the JSON is nested too deeply");
   EXPECT_EQ(message_of(read_gltf(as_bytes("{}"))), "asset: version '' is not 2.x");
   EXPECT_EQ(error_of(R"("nodes":3)"), "nodes: not an array");
   EXPECT_EQ(error_of(R"("nodes":[3])"), "nodes[0]: not an object");
@@ -305,6 +307,10 @@ TEST(Gltf, NamesTheElementOfEveryFault) {
       "accessors[0]: 4000000000 elements without a buffer view");
   EXPECT_EQ(error_of(mesh + R"("accessors":[{"componentType":5126,"count":4,"type":"VEC2"}])"),
             "meshes[0].primitives[0].attributes: POSITION has 2 components");
+  EXPECT_EQ(error_of(R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},
+              "extensions":{"KHR_draco_mesh_compression":{}}}]}],
+              "accessors":[{"componentType":5126,"count":4,"type":"VEC3"}])"),
+            "meshes[0].primitives[0]: KHR_draco_mesh_compression is not supported");
   EXPECT_EQ(error_of(mesh + R"("accessors":[{"componentType":5126,"count":4,"type":"VEC9"}])"),
             "accessors[0]: unknown type 'VEC9'");
 }

@@ -106,6 +106,8 @@ TEST(MappedFile, ReportsWhatCannotBeRead) {
   EXPECT_EQ(message_of(MappedFile::open("no such file")),
             "no such file: No such file or directory");
   EXPECT_EQ(message_of(MappedFile::open("/tmp")), "/tmp: Is a directory");
+  if (!fs::exists("/dev/zero")) return;
+  EXPECT_EQ(message_of(MappedFile::open("/dev/zero")), "/dev/zero: Is a device");
 }
 
 }  // namespace

@@ -39,7 +39,9 @@ TEST(Ply, ReadsAsciiWithAnyPropertyOrderAndUnknownParts) {
                                             "0 3 2 1 0\n"));
   EXPECT_EQ(imported.mesh.positions, (std::vector<Vec3>{{2, 3, 1}, {5, 6, 4}, {8, 9, 7}}));
   EXPECT_EQ(imported.mesh.indices, (Indices{2, 1, 0}));
-  EXPECT_TRUE(imported.warnings.empty());
+  EXPECT_EQ(imported.warnings,
+            (std::vector<std::string>{"element 'material' was dropped",
+                                      "1 properties of the vertices were dropped: 'tags'"}));
 }
 
 constexpr std::string_view kFullHeader =
@@ -141,6 +143,7 @@ TEST(Ply, ScalesColoursOf16BitsAndFloats) {
                         "property float blue\nproperty float alpha\nend_header\n"
                         "0 0 0 -1 0.5 7 nan\n"));
   EXPECT_EQ(floats.mesh.colors, (std::vector<Color>{{0, 128, 255, 0}}));
+  EXPECT_EQ(floats.warnings[0], "1 components of colours that are not finite became 0");
 }
 
 constexpr std::string_view kFourPoints =
@@ -271,6 +274,10 @@ TEST(Ply, KeepsOneTextureFile) {
   ASSERT_EQ(imported.mesh.images.size(), 1u);
   EXPECT_EQ(imported.mesh.images[0].uri, "skin of the cow.png");
   EXPECT_EQ(imported.mesh.ranges, mesh.ranges);
+  EXPECT_EQ(imported.mesh.texcoords[1], mesh.texcoords[1]);
+  // In the file, images begin at the lower left.
+  const std::vector<std::byte> text = write_ply(mesh, {.ascii = true});
+  EXPECT_NE(as_text(text).find("\n1 0 0 0 1 0 1 1 "), std::string::npos) << as_text(text);
 }
 
 TEST(Ply, ReadsTheDragonFast) {

@@ -294,8 +294,8 @@ std::vector<std::uint32_t> decode_indices(const Accessor& accessor) {
     if (!elements.data) return;
     with_type(elements.type, [&]<class T>(T) {
       for (std::size_t i = 0; i < elements.count; ++i)
-        values[place_of(i)] =
-            static_cast<std::uint32_t>(load<T>(elements.data + i * elements.stride));
+        values[place_of(i)] = static_cast<std::uint32_t>(
+            static_cast<std::int64_t>(load<T>(elements.data + i * elements.stride)));
     });
   };
   decode(accessor.elements, [](std::size_t i) { return i; });

@@ -9,6 +9,7 @@
 #include <varifold/io/import_check.h>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <glm/mat3x3.hpp>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -147,6 +148,7 @@ class GltfReader {
     for (const std::string& name : attributes.keys())
       if (std::find(kAttributes.begin(), kAttributes.end(), name) == kAttributes.end())
         dropped_attributes_.insert(name);
+    check_compression(primitive, accessors[0]);
     if (fault_.any()) return;
 
     auto found = blocks.find(accessors);
@@ -157,6 +159,14 @@ class GltfReader {
     if (fault_.any()) return;
     add_triangles(corners, mode, found->second.first, mover.mirrors());
     set_material(primitive);
+  }
+
+  /// Where a compressed primitive has no plain data beside it, its accessors would read as zeros.
+  void check_compression(const JsonElement& primitive, std::uint64_t position) {
+    constexpr const char* kCompression = "KHR_draco_mesh_compression";
+    if (primitive.object("extensions").has(kCompression) &&
+        !root_.array("accessors").item(position).has("bufferView"))
+      primitive.fault(std::string(kCompression) + " is not supported", ErrorKind::kUnsupported);
   }
 
   // --- vertices ---
@@ -226,6 +236,8 @@ class GltfReader {
         mesh.texcoords.emplace_back(texcoords[2 * i], texcoords[2 * i + 1]);
     }
     if (!colors.empty()) {
+      colors_not_finite_ += static_cast<std::size_t>(std::count_if(
+          colors.begin(), colors.end(), [](float value) { return !std::isfinite(value); }));
       mesh.colors.resize(first, kWhite);
       for (std::size_t i = 0; i < count; ++i)
         mesh.colors.push_back(to_color(&colors[color_components * i], color_components));
@@ -234,12 +246,7 @@ class GltfReader {
 
   static Color to_color(const float* values, unsigned components) {
     Color color = kWhite;
-    for (unsigned i = 0; i < components; ++i) {
-      const float scaled = values[i] * 255 + 0.5f;
-      color[static_cast<int>(i)] = scaled >= 255 ? 255
-                                   : scaled > 0  ? static_cast<std::uint8_t>(scaled)
-                                                 : 0;
-    }
+    for (unsigned i = 0; i < components; ++i) color[static_cast<int>(i)] = color_byte(values[i]);
     return color;
   }
 
@@ -322,6 +329,7 @@ class GltfReader {
     set_ranges();
     for (const std::string& name : dropped_attributes_)
       imported_.warnings.push_back("attribute " + in_quotes(name) + " was dropped");
+    warn_count(imported_, colors_not_finite_, "components of colours that are not finite became 0");
     warn_count(imported_, morphed_, "primitives have morph targets, which were dropped");
     warn_count(imported_, points_and_lines_, "primitives of points or lines were dropped");
     warn_count(imported_, without_positions_, "primitives without positions were dropped");
@@ -366,6 +374,7 @@ class GltfReader {
   std::size_t points_and_lines_ = 0;
   std::size_t without_positions_ = 0;
   std::size_t morphed_ = 0;
+  std::size_t colors_not_finite_ = 0;
   std::size_t incomplete_ = 0;
 };
 

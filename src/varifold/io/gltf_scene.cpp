@@ -21,9 +21,8 @@ glm::dmat4 local_transform(const JsonElement& node) {
   std::array<double, 16> numbers{};
   glm::dmat4 m(1);
   if (node.numbers("matrix", numbers)) {
-    for (int column = 0; column < 4; ++column)
-      for (int row = 0; row < 4; ++row)
-        m[column][row] = numbers[static_cast<std::size_t>(4 * column + row)];
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      m[static_cast<int>(i / 4)][static_cast<int>(i % 4)] = numbers[i];
     return m;
   }
   std::array<double, 4> quaternion{0, 0, 0, 1};
@@ -74,17 +73,18 @@ std::vector<Instance> collect_instances(const JsonElement& root) {
       has_scene ? whole_items(scenes.item(root.whole("scene", 0)).array("nodes"))
                 : parentless(nodes);
 
+  std::vector<glm::dmat4> transforms{glm::dmat4(1)};  // of nodes with children
   struct Visit {
     std::uint64_t node;
-    glm::dmat4 parent;
+    std::size_t parent;  ///< in transforms
   };
   std::vector<Visit> stack;
-  const auto push = [&](const std::vector<std::uint64_t>& ids, const glm::dmat4& parent) {
+  const auto push = [&](const std::vector<std::uint64_t>& ids, std::size_t parent) {
     std::for_each(ids.rbegin(), ids.rend(), [&](std::uint64_t id) {
       stack.push_back({id, parent});
     });
   };
-  push(roots, glm::dmat4(1));
+  push(roots, 0);
   std::vector<bool> is_visited(nodes.size(), false);
   while (!stack.empty()) {
     const Visit visit = stack.back();
@@ -96,9 +96,12 @@ std::vector<Instance> collect_instances(const JsonElement& root) {
       return instances;
     }
     is_visited[visit.node] = true;
-    const glm::dmat4 transform = visit.parent * local_transform(node);
+    const glm::dmat4 transform = transforms[visit.parent] * local_transform(node);
     if (node.has("mesh")) instances.push_back({node.whole("mesh"), transform});
-    push(whole_items(node.array("children")), transform);
+    const std::vector<std::uint64_t> children = whole_items(node.array("children"));
+    if (children.empty()) continue;
+    transforms.push_back(transform);
+    push(children, transforms.size() - 1);
   }
   return instances;
 }

@@ -4,6 +4,7 @@
 #include <varifold/base/result.h>
 #include <varifold/io/imported_mesh.h>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -24,6 +25,13 @@ void fill_missing_normals(TriangleMesh& mesh, const std::vector<bool>& is_missin
 
 /// Appends "<count> <what>" to the warnings unless the count is 0; `what` is in the plural.
 void warn_count(ImportedMesh& imported, std::size_t count, std::string_view what);
+
+/// A colour component in [0, 1] as a byte, rounded; what is below or not a number becomes 0, what
+/// is above 255. The exact byte for byte / 255.
+[[nodiscard]] inline std::uint8_t color_byte(float value) {
+  const float scaled = value * 255 + 0.5f;
+  return scaled >= 255 ? 255 : scaled > 0 ? static_cast<std::uint8_t>(scaled) : 0;
+}
 
 /// Text of a file as it may stand in a message: one line of at most 60 printable characters, in
 /// quotes.

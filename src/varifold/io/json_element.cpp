@@ -35,6 +35,36 @@ class FaultFinder : public nlohmann::json_sax<json> {
   std::size_t position = 0;
 };
 
+/// The position of the bracket that opens the level after kMostLevels, or npos. Every level costs
+/// the parser far more memory than its byte, and no honest file has many.
+std::size_t find_too_deep(std::string_view text) {
+  constexpr std::size_t kMostLevels = 1000;
+  std::size_t level = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '"') {
+      in_string = !in_string;
+    } else if (in_string) {
+      if (c == '\\') ++i;
+    } else if (c == '[' || c == '{') {
+      if (++level > kMostLevels) return i;
+    } else if (c == ']' || c == '}') {
+      level -= level > 0 ? 1 : 0;
+    }
+  }
+  return std::string_view::npos;
+}
+
+tl::unexpected<Error> bad_json(std::string_view text, std::size_t position,
+                               std::string_view fault) {
+  position = std::min(position, text.size());
+  const auto lines =
+      std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(position), '\n');
+  return fail(ErrorKind::kInvalidInput,
+              fmt::format("line {}, byte {}: {}", lines + 1, position, fault));
+}
+
 }  // namespace
 
 const json* JsonElement::find(std::string_view key) const {
@@ -175,15 +205,13 @@ bool JsonElement::numbers(std::string_view key, std::span<double> numbers) const
 }
 
 Result<json> parse_json(std::string_view text) {
+  if (const std::size_t at = find_too_deep(text); at != std::string_view::npos)
+    return bad_json(text, at, "the JSON is nested too deeply");
   json parsed = json::parse(text.begin(), text.end(), nullptr, false);
   if (!parsed.is_discarded()) return parsed;
   FaultFinder finder;
   json::sax_parse(text.begin(), text.end(), &finder);
-  const std::size_t position = std::min(finder.position, text.size());
-  const auto line =
-      1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(position), '\n');
-  return fail(ErrorKind::kInvalidInput,
-              fmt::format("line {}, byte {}: not valid JSON", line, position));
+  return bad_json(text, finder.position, "not valid JSON");
 }
 
 }  // namespace varifold

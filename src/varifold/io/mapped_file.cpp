@@ -48,6 +48,11 @@ Result<MappedFile> MappedFile::open(const std::filesystem::path& path) {
   if (::fstat(file.value, &status) != 0) return unreadable(path, errno);
   if (S_ISDIR(status.st_mode)) return unreadable(path, EISDIR);
 
+  // Some of these, such as /dev/zero, have no end.
+  const bool is_device =
+      S_ISBLK(status.st_mode) || (S_ISCHR(status.st_mode) && ::isatty(file.value) == 0);
+  if (is_device) return fail(ErrorKind::kUnreadable, path.string() + ": Is a device");
+
   MappedFile result;
   if (S_ISREG(status.st_mode) && status.st_size > 0) {
     const auto size = static_cast<std::size_t>(status.st_size);

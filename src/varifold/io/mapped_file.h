@@ -9,15 +9,15 @@
 
 namespace varifold {
 
-/// The bytes of a file, mapped into memory; pipes, devices and standard input (/dev/stdin) are read
-/// to their end instead. Move-only; the bytes live as long as the object.
+/// The bytes of a file, mapped into memory; pipes, terminals and standard input (/dev/stdin) are
+/// read to their end instead. Move-only; the bytes live as long as the object.
 ///
 /// A mapped file must not be truncated by another program while it is in use: the system answers
 /// reads past its new end with a signal.
 class MappedFile {
  public:
   /// Errors: kUnreadable, with the path first, where the file cannot be opened or read, or is a
-  /// folder.
+  /// folder or a device.
   [[nodiscard]] static Result<MappedFile> open(const std::filesystem::path& path);
 
   MappedFile(MappedFile&& other) noexcept;

@@ -121,9 +121,16 @@ Result<void> write_mesh(const TriangleMesh& mesh, const std::filesystem::path& p
 std::vector<std::string> unwritten_parts(const TriangleMesh& mesh, MeshFormat format) {
   std::vector<std::string> parts;
   if (format == MeshFormat::kPly && !mesh.materials.empty()) parts.emplace_back("materials");
-  if (format == MeshFormat::kObj &&
-      std::any_of(mesh.colors.begin(), mesh.colors.end(), [](Color c) { return c.a != 255; }))
+  if (format != MeshFormat::kObj) return parts;
+  const auto has_alpha = [](const Color& color) { return color.a != 255; };
+  if (std::any_of(mesh.colors.begin(), mesh.colors.end(), has_alpha))
     parts.emplace_back("alpha of vertex colours");
+  const auto has_other_textures = [](const Material& material) {
+    return material.textures[static_cast<std::size_t>(TextureUse::kMetallicRoughness)] != kNone ||
+           material.textures[static_cast<std::size_t>(TextureUse::kOcclusion)] != kNone;
+  };
+  if (std::any_of(mesh.materials.begin(), mesh.materials.end(), has_other_textures))
+    parts.emplace_back("metallic-roughness and occlusion textures");
   return parts;
 }
 

@@ -12,6 +12,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <unordered_map>
+#include <unordered_set>
 
 namespace varifold {
 namespace {
@@ -139,12 +141,10 @@ class ObjReader {
     // Six numbers: x y z r g b. Seven: colours with alpha.
     if (colors_.empty()) colors_.assign(positions_.values.size() - 1, Color(255, 255, 255, 255));
     if (*count == 6) numbers[6] = 1;
-    Color color;
-    for (int i = 0; i < 4; ++i) {
-      const float scaled = numbers[static_cast<std::size_t>(3 + i)] * 255 + 0.5f;
-      color[i] = scaled >= 255 ? 255 : scaled > 0 ? static_cast<std::uint8_t>(scaled) : 0;
-    }
-    colors_.push_back(color);
+    for (std::size_t i = 3; i < numbers.size(); ++i)
+      if (!std::isfinite(numbers[i])) ++colors_not_finite_;
+    colors_.emplace_back(color_byte(numbers[3]), color_byte(numbers[4]), color_byte(numbers[5]),
+                         color_byte(numbers[6]));
     return {};
   }
 
@@ -255,6 +255,7 @@ class ObjReader {
 
   /// The name may have spaces, or there may be several names: the whole is tried first.
   void read_library(const std::string& names) {
+    if (!libraries_.insert(names).second) return;
     auto whole = open_resource(folder_, names);
     if (whole) {
       library_.add(as_text(whole->bytes()));
@@ -295,6 +296,7 @@ class ObjReader {
     warn_count(imported, unused_, "vertices that no face uses were dropped");
     warn_count(imported, without_texcoord_, "vertices without texture coordinate got (0, 0)");
     warn_count(imported, without_normal, "vertices without normal got that of their triangles");
+    warn_count(imported, colors_not_finite_, "components of colours that are not finite became 0");
     warn_count(imported, points_and_lines_, "point and line elements were dropped");
     warn_count(imported, unknown_count_, "lines were not understood, the first being " + unknown_);
     return finish_import(std::move(imported));
@@ -365,8 +367,10 @@ class ObjReader {
   std::vector<std::string> material_names_;
   std::unordered_map<std::string, std::uint32_t> material_ids_;
   obj::MaterialLibrary library_;
+  std::unordered_set<std::string> libraries_;  ///< what followed mtllib so far
 
   std::vector<std::string> warnings_;
+  std::size_t colors_not_finite_ = 0;
   std::size_t points_and_lines_ = 0;
   std::size_t unknown_count_ = 0;
   std::size_t missing_libraries_ = 0;

@@ -14,7 +14,9 @@ namespace varifold {
 /// "face": the list vertex_indices or vertex_index; polygons are cut into triangles. From
 /// "tristrips": strips with alternating winding, where -1 begins a new one and triangles with equal
 /// corners are dropped. Properties may have any order and type; others are skipped. A comment
-/// "TextureFile name" becomes a material with that image. Vertices keep their order and number.
+/// "TextureFile name" becomes a material with that image; then, but only then, t becomes 1 - t, as
+/// these images begin at the lower left and those of TriangleMesh at the upper left. Vertices keep
+/// their order and number.
 ///
 /// O(file). Errors: kInvalidInput, "line 12: ..." in the header and in ASCII files, "byte 345: ..."
 /// and the number of the element in binary ones.
@@ -25,7 +27,8 @@ struct PlyOptions {
 };
 
 /// The mesh as a PLY file with float positions, normals (nx ny nz), texture coordinates (s t) and
-/// uchar colours, where present. PLY knows no materials: of these only one texture file is kept.
+/// uchar colours, where present. PLY knows no materials: of a single one the base colour's file is
+/// kept, as read_ply() reads it.
 [[nodiscard]] std::vector<std::byte> write_ply(const TriangleMesh& mesh,
                                                const PlyOptions& options = {});
 

@@ -67,11 +67,12 @@ void bind_floats(const std::array<std::uint32_t, kCount>& properties, std::size_
 }
 
 float color_scale(Type type) {
-  if (is_float(type)) return 255;
-  return type == Type::kUint16 ? 255.0f / 65535.0f : 1;
+  if (is_float(type)) return 1;
+  return type == Type::kUint16 ? 1 / 65535.0f : 1 / 255.0f;
 }
 
-void bind_colors(const Element& element, TriangleMesh& mesh, std::vector<Column>& columns) {
+void bind_colors(const Element& element, TriangleMesh& mesh, std::size_t& not_finite,
+                 std::vector<Column>& columns) {
   const auto rgb = find_all<3>(element, {"red", "green", "blue"});
   if (!rgb) return;
   mesh.colors.assign(element.count, Color(0, 0, 0, 255));
@@ -83,6 +84,7 @@ void bind_colors(const Element& element, TriangleMesh& mesh, std::vector<Column>
     Column column;
     column.property = properties[i];
     column.bytes = first + i;
+    column.not_finite = &not_finite;
     column.stride = sizeof(Color);
     column.scale = color_scale(element.properties[properties[i]].type);
     columns.push_back(column);
@@ -91,7 +93,8 @@ void bind_colors(const Element& element, TriangleMesh& mesh, std::vector<Column>
 
 }  // namespace
 
-Result<std::vector<Column>> bind_columns(const Element& element, TriangleMesh& mesh) {
+Result<std::vector<Column>> bind_columns(const Element& element, TriangleMesh& mesh,
+                                         std::size_t& not_finite) {
   std::vector<Column> columns;
   const auto position = find_all<3>(element, {"x", "y", "z"});
   if (!position)
@@ -107,7 +110,7 @@ Result<std::vector<Column>> bind_columns(const Element& element, TriangleMesh& m
     bind_floats(*texcoord, element.count, mesh.texcoords, columns);
     break;
   }
-  bind_colors(element, mesh, columns);
+  bind_colors(element, mesh, not_finite, columns);
   std::sort(columns.begin(), columns.end(),
             [](const Column& a, const Column& b) { return a.property < b.property; });
   return columns;

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <varifold/base/result.h>
+#include <varifold/io/import_check.h>
 #include <varifold/io/ply_header.h>
 #include <varifold/mesh/triangle_mesh.h>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -20,23 +22,25 @@ struct Column {
   float* floats = nullptr;
   std::uint8_t* bytes = nullptr;
   std::size_t stride = 0;
-  float scale = 1;  ///< of colours: to 255
+  float scale = 1;                    ///< of colours: to [0, 1]
+  std::size_t* not_finite = nullptr;  ///< counts colour components that are not finite
 
   void store(std::size_t row, float value) const {
     if (floats) {
       floats[row * stride] = value;
       return;
     }
-    const float scaled = value * scale + 0.5f;
-    // A value that is not a number fails both comparisons and becomes 0.
-    bytes[row * stride] = scaled >= 255 ? 255 : scaled > 0 ? static_cast<std::uint8_t>(scaled) : 0;
+    if (!std::isfinite(value)) ++*not_finite;
+    bytes[row * stride] = color_byte(value * scale);
   }
 };
 
 /// The columns of a vertex element, bound to the arrays of a mesh, which it sizes: the caller has
-/// checked that the file has bytes for element.count rows.
+/// checked that the file has bytes for element.count rows. Colour components that are not finite
+/// are counted in `not_finite`, which the columns refer to.
 /// Errors: kInvalidInput where x, y or z are missing.
-[[nodiscard]] Result<std::vector<Column>> bind_columns(const Element& element, TriangleMesh& mesh);
+[[nodiscard]] Result<std::vector<Column>> bind_columns(const Element& element, TriangleMesh& mesh,
+                                                       std::size_t& not_finite);
 
 /// Decodes one column of `rows` binary rows of equal size, beginning with row `first_row`; `first`
 /// points to the property in that row.

@@ -56,7 +56,11 @@ class BodyReader {
     if (auto fits = check_count(element); !fits) return fits;
     if (element.name == "vertex") return read_vertices(element);
     const bool is_face = element.name == "face";
-    if (!is_face && element.name != "tristrips") return skip_rows(element);
+    if (!is_face && element.name != "tristrips") {
+      if (element.count > 0)
+        warnings_.push_back("element " + in_quotes(element.name) + " was dropped");
+      return skip_rows(element);
+    }
 
     std::uint32_t list = element.find("vertex_indices");
     if (list == kNone) list = element.find("vertex_index");
@@ -91,12 +95,31 @@ class BodyReader {
   // --- vertices ---
 
   Result<void> read_vertices(const Element& element) {
-    auto columns = ply::bind_columns(element, mesh_);
+    auto columns = ply::bind_columns(element, mesh_, colors_not_finite_);
     if (!columns) return tl::unexpected(columns.error());
+    warn_of_unused(element, *columns);
     if (is_ascii()) return read_vertices_ascii(element, *columns);
     if (element.has_list()) return read_vertices_with_lists(element, *columns);
     read_vertices_of_equal_size(element, *columns);
     return {};
+  }
+
+  void warn_of_unused(const Element& element, const std::vector<Column>& columns) {
+    constexpr std::size_t kMostNames = 10;
+    std::string names;
+    std::size_t count = 0;
+    auto column = columns.begin();
+    for (std::uint32_t p = 0; p < element.properties.size() && element.count > 0; ++p) {
+      if (column != columns.end() && column->property == p) {
+        ++column;
+      } else if (count++ < kMostNames) {
+        names += ' ';
+        names += in_quotes(element.properties[p].name);
+      }
+    }
+    if (count > 0)
+      warnings_.push_back(fmt::format("{} properties of the vertices were dropped:{}{}", count,
+                                      names, count > kMostNames ? " ..." : ""));
   }
 
   void read_vertices_of_equal_size(const Element& element, const std::vector<Column>& columns) {
@@ -326,12 +349,15 @@ class BodyReader {
     if (!header_.texture_file.empty() && mesh_.has_texcoords()) add_texture();
     ImportedMesh imported;
     imported.warnings = std::move(warnings_);
+    warn_count(imported, colors_not_finite_, "components of colours that are not finite became 0");
     polygons_.warn(imported);
     imported.mesh = std::move(mesh_);
     return finish_import(std::move(imported));
   }
 
+  /// Images begin at the lower left for PLY's programs, at the upper left in TriangleMesh.
   void add_texture() {
+    for (Vec2& texcoord : mesh_.texcoords) texcoord.y = 1 - texcoord.y;
     Image image;
     image.uri = header_.texture_file;
     mesh_.images.push_back(std::move(image));
@@ -349,6 +375,7 @@ class BodyReader {
   TriangleMesh mesh_;
   PolygonCollector polygons_{mesh_};
   std::vector<std::string> warnings_;
+  std::size_t colors_not_finite_ = 0;
 };
 
 }  // namespace

@@ -15,10 +15,10 @@ std::string texture_file(const TriangleMesh& mesh) {
   return uri.find_first_of("\r\n") == std::string::npos ? uri : std::string();
 }
 
-void write_header(const TriangleMesh& mesh, bool ascii, TextWriter& out) {
+void write_header(const TriangleMesh& mesh, const std::string& texture, bool ascii,
+                  TextWriter& out) {
   out.write("ply\nformat ", ascii ? "ascii" : "binary_little_endian", " 1.0\n");
-  if (const std::string file = texture_file(mesh); !file.empty())
-    out.write("comment TextureFile ", file, '\n');
+  if (!texture.empty()) out.write("comment TextureFile ", texture, '\n');
   out.write("element vertex ", mesh.positions.size(), '\n');
   out.write("property float x\nproperty float y\nproperty float z\n");
   if (mesh.has_normals()) out.write("property float nx\nproperty float ny\nproperty float nz\n");
@@ -30,7 +30,13 @@ void write_header(const TriangleMesh& mesh, bool ascii, TextWriter& out) {
   out.write("property list uchar uint vertex_indices\nend_header\n");
 }
 
-void write_body_ascii(const TriangleMesh& mesh, TextWriter& out) {
+/// With a texture file, images begin at the lower left.
+Vec2 texcoord(const TriangleMesh& mesh, std::size_t vertex, bool flip) {
+  const Vec2& t = mesh.texcoords[vertex];
+  return flip ? Vec2(t.x, 1 - t.y) : t;
+}
+
+void write_body_ascii(const TriangleMesh& mesh, bool flip, TextWriter& out) {
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     const Vec3& p = mesh.positions[v];
     out.write(p.x, ' ', p.y, ' ', p.z);
@@ -38,7 +44,10 @@ void write_body_ascii(const TriangleMesh& mesh, TextWriter& out) {
       const Vec3& n = mesh.normals[v];
       out.write(' ', n.x, ' ', n.y, ' ', n.z);
     }
-    if (mesh.has_texcoords()) out.write(' ', mesh.texcoords[v].x, ' ', mesh.texcoords[v].y);
+    if (mesh.has_texcoords()) {
+      const Vec2 t = texcoord(mesh, v, flip);
+      out.write(' ', t.x, ' ', t.y);
+    }
     if (mesh.has_colors())
       for (int i = 0; i < 4; ++i) out.write(' ', static_cast<int>(mesh.colors[v][i]));
     out.write('\n');
@@ -53,7 +62,7 @@ std::byte* put(std::byte* at, T value) {
   return at + sizeof(T);
 }
 
-void write_body_binary(const TriangleMesh& mesh, std::vector<std::byte>& bytes) {
+void write_body_binary(const TriangleMesh& mesh, bool flip, std::vector<std::byte>& bytes) {
   const std::size_t vertex_bytes = 12 + (mesh.has_normals() ? 12 : 0) +
                                    (mesh.has_texcoords() ? 8 : 0) + (mesh.has_colors() ? 4 : 0);
   const std::size_t header_bytes = bytes.size();
@@ -64,7 +73,7 @@ void write_body_binary(const TriangleMesh& mesh, std::vector<std::byte>& bytes) 
     if (mesh.has_normals())
       for (int i = 0; i < 3; ++i) at = put(at, mesh.normals[v][i]);
     if (mesh.has_texcoords())
-      for (int i = 0; i < 2; ++i) at = put(at, mesh.texcoords[v][i]);
+      for (int i = 0; i < 2; ++i) at = put(at, texcoord(mesh, v, flip)[i]);
     if (mesh.has_colors())
       for (int i = 0; i < 4; ++i) at = put(at, mesh.colors[v][i]);
   }
@@ -78,13 +87,14 @@ void write_body_binary(const TriangleMesh& mesh, std::vector<std::byte>& bytes) 
 
 std::vector<std::byte> write_ply(const TriangleMesh& mesh, const PlyOptions& options) {
   TextWriter out;
-  write_header(mesh, options.ascii, out);
+  const std::string texture = texture_file(mesh);
+  write_header(mesh, texture, options.ascii, out);
   if (options.ascii) {
-    write_body_ascii(mesh, out);
+    write_body_ascii(mesh, !texture.empty(), out);
     return out.take();
   }
   std::vector<std::byte> bytes = out.take();
-  write_body_binary(mesh, bytes);
+  write_body_binary(mesh, !texture.empty(), bytes);
   return bytes;
 }
 

@@ -1,99 +1,99 @@
 #include <varifold/simplify/attribute_field.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace varifold {
 
-AttributeField::AttributeField(const TriangleMesh& mesh, const AttributeWeights& weights) {
+AttributeField::AttributeField(const TriangleMesh& mesh, std::span<const std::uint32_t> vertex_of,
+                               const AttributeWeights& weights) {
   const bool normals = mesh.has_normals() && weights.normal > 0;
   const bool texcoords = mesh.has_texcoords() && weights.texcoord > 0;
   const bool colors = mesh.has_colors() && weights.color > 0;
-  channels_ = 3 * normals + 2 * texcoords + 4 * colors;
-  if (channels_ == 0) return;
+  channel_count_ = 3 * normals + 2 * texcoords + 4 * colors;
+  if (channel_count_ == 0) return;
 
-  values_.reserve(std::size_t{mesh.vertex_count()} * channels_);
-  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+  stride_ = kHeadFloats + kChannelFloats * static_cast<std::size_t>(channel_count_);
+  data_.assign(vertex_of.size() * stride_, 0.0f);
+  for (std::uint32_t w = 0; w < vertex_of.size(); ++w) {
+    const std::uint32_t v = vertex_of[w];
+    Channel* channel = channels(w);
     if (normals)
-      for (int k = 0; k < 3; ++k) values_.push_back(weights.normal * mesh.normals[v][k]);
+      for (int k = 0; k < 3; ++k) (channel++)->value = weights.normal * mesh.normals[v][k];
     if (texcoords)
-      for (int k = 0; k < 2; ++k) values_.push_back(weights.texcoord * mesh.texcoords[v][k]);
+      for (int k = 0; k < 2; ++k) (channel++)->value = weights.texcoord * mesh.texcoords[v][k];
     if (colors)
-      for (int k = 0; k < 4; ++k) values_.push_back(weights.color / 255 * mesh.colors[v][k]);
+      for (int k = 0; k < 4; ++k) (channel++)->value = weights.color / 255 * mesh.colors[v][k];
   }
-  terms_.resize(values_.size());
-  quadrics_.resize(mesh.vertex_count());
-  weights_.assign(mesh.vertex_count(), 0);
 }
 
 void AttributeField::add_face(const std::array<std::uint32_t, 3>& wedges, const Vec3& edge_1,
-                              const Vec3& edge_2, float weight) {
+                              const Vec3& edge_2) {
   // The gradient g lies in the plane of the edges, with g.e1 = s1 - s0 and g.e2 = s2 - s0.
   const float d11 = glm::dot(edge_1, edge_1);
   const float d12 = glm::dot(edge_1, edge_2);
   const float d22 = glm::dot(edge_2, edge_2);
-  const float determinant = d11 * d22 - d12 * d12;
-  weights_[wedges[0]] += weight;
+  const float determinant = d11 * d22 - d12 * d12;  // (twice the area)^2
+  const float weight = std::sqrt(std::max(0.0f, determinant)) / 6;
+  Head& own = head(wedges[0]);
+  own.weight += weight;
   if (determinant <= 1e-6f * d11 * d22) return;  // a needle has no reliable gradient
   const Vec3 dual_1 = (d22 * edge_1 - d12 * edge_2) / determinant;
   const Vec3 dual_2 = (d11 * edge_2 - d12 * edge_1) / determinant;
-  const float* s0 = values(wedges[0]);
-  const float* s1 = values(wedges[1]);
-  const float* s2 = values(wedges[2]);
-  Term* terms = &terms_[std::size_t{wedges[0]} * channels_];
-  for (int k = 0; k < channels_; ++k) {
-    const Vec3 g = (s1[k] - s0[k]) * dual_1 + (s2[k] - s0[k]) * dual_2;
-    terms[k].gradient += weight * g;
-    quadrics_[wedges[0]].add_plane(g, weight);
+  Channel* s0 = channels(wedges[0]);
+  const Channel* s1 = channels(wedges[1]);
+  const Channel* s2 = channels(wedges[2]);
+  for (int k = 0; k < channel_count_; ++k) {
+    const Vec3 g = (s1[k].value - s0[k].value) * dual_1 + (s2[k].value - s0[k].value) * dual_2;
+    s0[k].gradient += weight * g;
+    own.quadric.add_plane(g, weight);
   }
 }
 
 float AttributeField::coupling(std::uint32_t wedge, std::uint32_t onto, const Vec3& d) const {
-  const float* from_values = values(wedge);
-  const float* onto_values = values(onto);
-  const Term* terms = &terms_[std::size_t{wedge} * channels_];
+  const Channel* from = channels(wedge);
+  const Channel* to = channels(onto);
+  const float weight = head(wedge).weight;
   float sum = 0;
-  for (int k = 0; k < channels_; ++k) {
-    const float change = onto_values[k] - from_values[k];
-    const float slope = glm::dot(terms[k].gradient, d) + terms[k].offset;
-    sum += change * (weights_[wedge] * change - 2 * slope);
+  for (int k = 0; k < channel_count_; ++k) {
+    const float change = to[k].value - from[k].value;
+    const float slope = glm::dot(from[k].gradient, d) + from[k].offset;
+    sum += change * (weight * change - 2 * slope);
   }
   return sum;
 }
 
 float AttributeField::cost(std::uint32_t wedge, std::uint32_t onto, const Vec3& d) const {
-  return std::max(0.0f, quadrics_[wedge].at(d) + coupling(wedge, onto, d));
+  return std::max(0.0f, head(wedge).quadric.at(d) + coupling(wedge, onto, d));
 }
 
 void AttributeField::merge(std::uint32_t wedge, std::uint32_t onto, const Vec3& d) {
-  Quadric moved = quadrics_[wedge].moved_by(d);
+  const Head& own = head(wedge);
+  Quadric moved = own.quadric.moved_by(d);
   moved.c = std::max(0.0f, moved.c + coupling(wedge, onto, d));
-  const float* from_values = values(wedge);
-  const float* onto_values = values(onto);
-  const Term* terms = &terms_[std::size_t{wedge} * channels_];
-  Term* onto_terms = &terms_[std::size_t{onto} * channels_];
-  const float weight = weights_[wedge];
-  for (int k = 0; k < channels_; ++k) {
-    const float change = onto_values[k] - from_values[k];
-    moved.b -= change * terms[k].gradient;
-    onto_terms[k].gradient += terms[k].gradient;
-    onto_terms[k].offset += terms[k].offset + glm::dot(terms[k].gradient, d) - weight * change;
+  const Channel* from = channels(wedge);
+  Channel* to = channels(onto);
+  for (int k = 0; k < channel_count_; ++k) {
+    const float change = to[k].value - from[k].value;
+    moved.b -= change * from[k].gradient;
+    to[k].gradient += from[k].gradient;
+    to[k].offset += from[k].offset + glm::dot(from[k].gradient, d) - own.weight * change;
   }
-  quadrics_[onto] += moved;
-  weights_[onto] += weight;
+  head(onto).quadric += moved;
+  head(onto).weight += own.weight;
 }
 
 float AttributeField::distance_squared(std::uint32_t a, std::uint32_t b) const {
+  const Channel* at_a = channels(a);
+  const Channel* at_b = channels(b);
   float sum = 0;
-  for (int k = 0; k < channels_; ++k) {
-    const float difference = values(a)[k] - values(b)[k];
+  for (int k = 0; k < channel_count_; ++k) {
+    const float difference = at_a[k].value - at_b[k].value;
     sum += difference * difference;
   }
   return sum;
 }
 
-std::size_t AttributeField::bytes() const {
-  return (values_.capacity() + weights_.capacity()) * sizeof(float) +
-         terms_.capacity() * sizeof(Term) + quadrics_.capacity() * sizeof(Quadric);
-}
+std::size_t AttributeField::bytes() const { return data_.capacity() * sizeof(float); }
 
 }  // namespace varifold

@@ -8,6 +8,8 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
+#include <varifold/base/large_vector.h>
 #include <varifold/mesh/triangle_mesh.h>
 #include <varifold/simplify/quadric.h>
 #include <vector>
@@ -28,16 +30,17 @@ class AttributeField {
   static constexpr int kMaxChannels = 9;  // normal 3, texture coordinate 2, colour 4
 
   AttributeField() = default;
-  /// Takes the channels that the mesh has and the weights do not switch off.
-  AttributeField(const TriangleMesh& mesh, const AttributeWeights& weights);
+  /// Takes the channels that the mesh has and the weights do not switch off; wedge w has the
+  /// attributes of vertex vertex_of[w].
+  AttributeField(const TriangleMesh& mesh, std::span<const std::uint32_t> vertex_of,
+                 const AttributeWeights& weights);
 
-  [[nodiscard]] bool empty() const { return channels_ == 0; }
-  [[nodiscard]] int channels() const { return channels_; }
+  [[nodiscard]] bool empty() const { return channel_count_ == 0; }
 
   /// The face's linear attribute functions enter the quadric of one of its corners: `wedge` with
   /// edges to the two others.
   void add_face(const std::array<std::uint32_t, 3>& wedges, const Vec3& edge_1,
-                const Vec3& edge_2, float weight);
+                const Vec3& edge_2);
 
   /// The weighted squared attribute error when `wedge` moves by `d` and takes the values of `onto`.
   [[nodiscard]] float cost(std::uint32_t wedge, std::uint32_t onto, const Vec3& d) const;
@@ -51,20 +54,38 @@ class AttributeField {
   [[nodiscard]] std::size_t bytes() const;
 
  private:
-  struct Term {
-    Vec3 gradient{0};  ///< sum of weight * gradient
-    float offset = 0;  ///< sum of weight * (value of the plane at the origin - own value)
+  // All of a wedge lies together: what does not depend on the values as a quadric, then for each
+  // channel the value, and what couples it to the place: the sum over the faces of weight *
+  // gradient, and of weight * (value of the face's linear function at the origin - own value).
+  struct Channel {
+    float value = 0;
+    float offset = 0;
+    Vec3 gradient{0};
   };
-  [[nodiscard]] float coupling(std::uint32_t wedge, std::uint32_t onto, const Vec3& d) const;
-  [[nodiscard]] const float* values(std::uint32_t wedge) const {
-    return &values_[std::size_t{wedge} * channels_];
-  }
+  struct Head {
+    Quadric quadric;
+    float weight = 0;
+  };
+  static constexpr std::size_t kHeadFloats = sizeof(Head) / sizeof(float);
+  static constexpr std::size_t kChannelFloats = sizeof(Channel) / sizeof(float);
 
-  int channels_ = 0;
-  std::vector<float> values_;
-  std::vector<Quadric> quadrics_;  // per wedge: the part without the values
-  std::vector<Term> terms_;        // per wedge and channel: what couples values and place
-  std::vector<float> weights_;
+  [[nodiscard]] Head& head(std::uint32_t wedge) {
+    return *reinterpret_cast<Head*>(&data_[wedge * stride_]);
+  }
+  [[nodiscard]] const Head& head(std::uint32_t wedge) const {
+    return *reinterpret_cast<const Head*>(&data_[wedge * stride_]);
+  }
+  [[nodiscard]] Channel* channels(std::uint32_t wedge) {
+    return reinterpret_cast<Channel*>(&data_[wedge * stride_ + kHeadFloats]);
+  }
+  [[nodiscard]] const Channel* channels(std::uint32_t wedge) const {
+    return reinterpret_cast<const Channel*>(&data_[wedge * stride_ + kHeadFloats]);
+  }
+  [[nodiscard]] float coupling(std::uint32_t wedge, std::uint32_t onto, const Vec3& d) const;
+
+  int channel_count_ = 0;
+  std::size_t stride_ = 0;  // floats a wedge
+  LargeVector<float> data_;
 };
 
 }  // namespace varifold

@@ -33,8 +33,8 @@ class BucketQueue {
     ++size_;
   }
 
-  /// The next vertex from a bucket below `limit`, or kNone. `prefetch(v)` is called with a vertex
-  /// that will come up soon.
+  /// The next vertex from a bucket below `limit`, or kNone. `prefetch.later(v)` is called with a
+  /// vertex that will come up in a while, `prefetch.soon(v)` with one that comes up soon.
   template <class Prefetch>
   [[nodiscard]] std::uint32_t pop(std::uint32_t limit, const Prefetch& prefetch) {
     while (current_ < limit) {
@@ -45,11 +45,8 @@ class BucketQueue {
       }
       Chunk& chunk = chunks_[head];
       const std::uint32_t vertex = chunk.vertices[--chunk.size];
-      // Chunks behind the head are full, so the entry a few places on is known across the border.
-      if (chunk.size >= kLookAhead)
-        prefetch(chunk.vertices[chunk.size - kLookAhead]);
-      else if (chunk.next != kNone)
-        prefetch(chunks_[chunk.next].vertices[kChunkCapacity + chunk.size - kLookAhead]);
+      if (const std::uint32_t next = upcoming(chunk, kLater); next != kNone) prefetch.later(next);
+      if (const std::uint32_t next = upcoming(chunk, kSoon); next != kNone) prefetch.soon(next);
       if (chunk.size == 0) drop_chunk(head);
       --size_;
       return vertex;
@@ -87,12 +84,21 @@ class BucketQueue {
 
  private:
   static constexpr std::uint32_t kChunkCapacity = 14;
-  static constexpr std::uint32_t kLookAhead = 4;
+  static constexpr std::uint32_t kLater = 7;
+  static constexpr std::uint32_t kSoon = 3;
   struct alignas(64) Chunk {
     std::uint32_t vertices[kChunkCapacity];
     std::uint32_t size;
     std::uint32_t next;
   };
+
+  // The entry that so many pops will reach, if it is in this chunk or the next one of its bucket;
+  // chunks behind the head are full.
+  [[nodiscard]] std::uint32_t upcoming(const Chunk& chunk, std::uint32_t pops) const {
+    if (chunk.size >= pops) return chunk.vertices[chunk.size - pops];
+    if (chunk.next == kNone) return kNone;
+    return chunks_[chunk.next].vertices[kChunkCapacity + chunk.size - pops];
+  }
 
   std::uint32_t add_chunk(std::uint32_t bucket) {
     std::uint32_t id = free_;

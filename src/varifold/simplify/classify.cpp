@@ -8,7 +8,7 @@ namespace varifold {
 namespace {
 
 // A step moves all wedges of a point and removes all faces of an edge; records count them in bytes.
-constexpr std::size_t kMaxWedges = 255;
+constexpr std::uint32_t kMaxWedges = 255;
 constexpr std::size_t kMaxIrregularRing = 1024;
 
 bool differ_across(const WorkingSurface& surface, std::uint32_t face_a, std::uint32_t face_b,
@@ -17,8 +17,8 @@ bool differ_across(const WorkingSurface& surface, std::uint32_t face_a, std::uin
   if (!wedge.material_of.empty() && wedge.material_of[face_a] != wedge.material_of[face_b])
     return true;
   for (const std::uint32_t end : {point, neighbor})
-    if (wedge.group_of[corner_wedge(surface, face_a, end)] !=
-        wedge.group_of[corner_wedge(surface, face_b, end)])
+    if (wedge.group_of[wedge.at_corner(face_a, end)] !=
+        wedge.group_of[wedge.at_corner(face_b, end)])
       return true;
   return false;
 }
@@ -70,15 +70,15 @@ VertexKind kind_of(WorkingSurface& surface, std::uint32_t point) {
   const auto ring = surface.ring_span(point);
   const WedgeTables& wedge = surface.wedge;
   if (ring.empty()) return VertexKind::kLocked;
-  if (!wedge.corners.empty() && wedge.of_point(point).size() > kMaxWedges)
+  if (wedge.has_seams() && wedge.count_of(point) > kMaxWedges)
     return VertexKind::kLocked;
 
   std::size_t gaps = 0;
   for (const RingEntry& entry : ring) gaps += entry.face == kNone;
-  if (gaps == 0 && wedge.corners.empty()) return VertexKind::kManifold;
+  if (gaps == 0 && !wedge.has_seams()) return VertexKind::kManifold;
   if (gaps > 1) surface.points[point].flags |= PointState::kIrregular;
   if (gaps > 1 && ring.size() > kMaxIrregularRing) return VertexKind::kLocked;
-  if (gaps == 1 && wedge.corners.empty() && ring.size() > kMaxIrregularRing)
+  if (gaps == 1 && !wedge.has_seams() && ring.size() > kMaxIrregularRing)
     return VertexKind::kCorner;
 
   const FeatureEdges features = find_features(surface, point);
@@ -108,7 +108,7 @@ EdgeUse edge_use(WorkingSurface& surface, std::uint32_t point, std::uint32_t nei
       arriving_face = ring[i].face;
     }
   }
-  if (!surface.wedge.corners.empty() && use.leaving == 1 && use.arriving == 1)
+  if (surface.wedge.has_seams() && use.leaving == 1 && use.arriving == 1)
     use.seam = differ_across(surface, leaving_face, arriving_face, point, neighbor);
   return use;
 }

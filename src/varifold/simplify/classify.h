@@ -19,14 +19,6 @@ struct EdgeUse {
 [[nodiscard]] EdgeUse edge_use(WorkingSurface& surface, std::uint32_t point,
                                std::uint32_t neighbor);
 
-/// The wedge of `face` at `point`; the surface must have wedges and the face that corner.
-[[nodiscard]] inline std::uint32_t corner_wedge(const WorkingSurface& surface, std::uint32_t face,
-                                                std::uint32_t point) {
-  const std::uint32_t* corner = &surface.wedge.corners[3 * std::size_t{face}];
-  if (surface.point_of_vertex[corner[0]] == point) return corner[0];
-  return surface.point_of_vertex[corner[1]] == point ? corner[1] : corner[2];
-}
-
 /// Sets PointState::kind and the flag kIrregular of every point. O(n), O(ring^2) where irregular.
 void classify_points(WorkingSurface& surface, int threads);
 

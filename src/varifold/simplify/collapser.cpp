@@ -11,6 +11,30 @@
 
 namespace varifold {
 
+namespace {
+
+// Brings a point and its ring into the cache, then the neighbours that the ring names.
+struct Prefetcher {
+  WorkingSurface& surface;
+
+  void later(std::uint32_t point) const {
+    __builtin_prefetch(&surface.points[point]);
+    __builtin_prefetch(&surface.lines[point]);
+  }
+  void soon(std::uint32_t point) const {
+    const PointState& state = surface.points[point];
+    if (state.ring_size > RingLine::kCapacity) return;
+    // A dirty point is likely to go back to the queue, and then only positions are read.
+    const bool will_collapse = !(state.flags & PointState::kDirty);
+    for (const RingEntry& entry : surface.ring_span(point)) {
+      __builtin_prefetch(&surface.points[entry.neighbor]);
+      if (will_collapse) __builtin_prefetch(&surface.lines[entry.neighbor]);
+    }
+  }
+};
+
+}  // namespace
+
 // Within the round a point stays with the cell that drains it; later it is due in its own cell.
 void Collapser::requeue(Cell& cell, std::uint32_t point, std::uint32_t bucket) {
   if (!home_cells || bucket < cell.limit) return cell.queue.push(point, bucket);
@@ -26,10 +50,8 @@ bool Collapser::leaves_cell(const Cell& cell, std::uint32_t point) {
 
 float Collapser::attribute_cost(std::uint32_t point, std::uint32_t onto, const Vec3& d) {
   const WedgeTables& wedge = surface_.wedge;
-  const auto from_wedges = wedge.of_point(point);
-  const auto onto_wedges = wedge.of_point(onto);
-  if (from_wedges.size() == 1 && onto_wedges.size() == 1)
-    return attributes_->cost(from_wedges[0], onto_wedges[0], d);
+  if (wedge.count_of(point) == 1 && wedge.count_of(onto) == 1)
+    return attributes_->cost(wedge.first_of(point), wedge.first_of(onto), d);
   // The wedges that meet along the edge; the others are matched when it collapses.
   float sum = 0;
   std::uint32_t previous = kNone;
@@ -37,48 +59,50 @@ float Collapser::attribute_cost(std::uint32_t point, std::uint32_t onto, const V
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const std::uint32_t next = ring[i + 1 == ring.size() ? 0 : i + 1].neighbor;
     if (ring[i].face == kNone || (ring[i].neighbor != onto && next != onto)) continue;
-    const std::uint32_t w = corner_wedge(surface_, ring[i].face, point);
-    if (w != previous) sum += attributes_->cost(w, corner_wedge(surface_, ring[i].face, onto), d);
+    const std::uint32_t w = wedge.at_corner(ring[i].face, point);
+    if (w != previous) sum += attributes_->cost(w, wedge.at_corner(ring[i].face, onto), d);
     previous = w;
   }
   return sum;
 }
 
-float Collapser::cost_onto(const PointQuadric& from, std::uint32_t point, std::uint32_t onto) {
-  const Vec3 d = surface_.points[onto].position - surface_.points[point].position;
-  const float error = from.quadric.at(d);
-  return attributes_ ? error + attribute_cost(point, onto, d) : error;
-}
-
-bool Collapser::find_candidate(std::uint32_t point) {
+float Collapser::find_candidate(Cell& cell, std::uint32_t point) {
   PointState& state = surface_.points[point];
   state.flags &= ~PointState::kDirty;
   state.target = kNone;
-  state.cost = std::numeric_limits<float>::infinity();
   const CollapseAlong along = kCollapseAlong[static_cast<int>(state.kind)];
-  if (along == CollapseAlong::kNothing) return false;
-  const PointQuadric from = point_quadric(surface_, point, options_.quadric);
-  for (const RingEntry& entry : surface_.ring_span(point)) {
-    if (along == CollapseAlong::kFeatureEdge &&
-        !edge_use(surface_, point, entry.neighbor).is_feature())
+  float least = std::numeric_limits<float>::infinity();
+  if (along == CollapseAlong::kNothing) return least;
+  cell.offsets.gather(surface_, point);
+  RingOffsets& offsets = cell.offsets;
+  const PointQuadric from = point_quadric(surface_, point, options_.quadric, offsets);
+  const float* errors = offsets.errors(from.quadric);
+  const RingEntry* ring = surface_.ring(point);
+  for (std::size_t i = 0; i < offsets.size(); ++i) {
+    const std::uint32_t onto = ring[i].neighbor;
+    if (along == CollapseAlong::kFeatureEdge && !edge_use(surface_, point, onto).is_feature())
       continue;
-    const float cost = cost_onto(from, point, entry.neighbor);
-    if (!(cost < state.cost)) continue;
-    state.cost = cost;
-    state.target = entry.neighbor;
+    float cost = errors[i];
+    if (attributes_) cost += attribute_cost(point, onto, offsets[i]);
+    if (!(cost < least)) continue;
+    least = cost;
+    state.target = onto;
   }
-  return state.target != kNone;
+  state.step = from.weight > 0 ? std::sqrt(least / from.weight) : 0.0f;
+  return least;
 }
 
 Refusal Collapser::refusal_of(Cell& scratch, std::uint32_t point) {
-  if (!find_candidate(point)) return Refusal::kFixed;
+  (void)find_candidate(scratch, point);
+  if (surface_.points[point].target == kNone) return Refusal::kFixed;
   return test(scratch, point, surface_.points[point].target);
 }
 
 void Collapser::queue_all(Cell& cell) {
   for (std::uint32_t point = cell.begin; point < cell.end; ++point) {
-    if (find_candidate(point))
-      cell.queue.push(point, BucketQueue::bucket_of(surface_.points[point].cost));
+    const float cost = find_candidate(cell, point);
+    if (surface_.points[point].target != kNone)
+      cell.queue.push(point, BucketQueue::bucket_of(cost));
     else
       surface_.points[point].flags |= PointState::kBlocked;
   }
@@ -86,10 +110,7 @@ void Collapser::queue_all(Cell& cell) {
 
 void Collapser::drain(Cell& cell, std::uint32_t limit, bool confined) {
   cell.limit = limit;
-  const auto prefetch = [&](std::uint32_t point) {
-    __builtin_prefetch(&surface_.points[point]);
-    __builtin_prefetch(&surface_.lines[point]);
-  };
+  const Prefetcher prefetch{surface_};
   while (true) {
     const std::uint32_t point = cell.queue.pop(limit, prefetch);
     if (point == kNone) return;
@@ -100,11 +121,12 @@ void Collapser::drain(Cell& cell, std::uint32_t limit, bool confined) {
       continue;
     }
     if (state.flags & PointState::kDirty) {
-      if (!find_candidate(point)) {
+      const float cost = find_candidate(cell, point);
+      if (state.target == kNone) {
         state.flags |= PointState::kBlocked;
         continue;
       }
-      const std::uint32_t bucket = BucketQueue::bucket_of(state.cost);
+      const std::uint32_t bucket = BucketQueue::bucket_of(cost);
       if (bucket > cell.queue.current()) {
         requeue(cell, point, bucket);
         continue;
@@ -121,11 +143,16 @@ void Collapser::try_others(Cell& cell, std::uint32_t point) {
   PointState& state = surface_.points[point];
   Candidate candidates[64];
   int count = 0;
-  const PointQuadric from = point_quadric(surface_, point, options_.quadric);
-  for (const RingEntry& entry : surface_.ring_span(point)) {
-    if (count == 64) break;
-    if (entry.neighbor == state.target) continue;
-    candidates[count++] = {cost_onto(from, point, entry.neighbor), entry.neighbor};
+  cell.offsets.gather(surface_, point);
+  RingOffsets& offsets = cell.offsets;
+  const PointQuadric from = point_quadric(surface_, point, options_.quadric, offsets);
+  const float* errors = offsets.errors(from.quadric);
+  const RingEntry* ring = surface_.ring(point);
+  for (std::size_t i = 0; i < offsets.size() && count < 64; ++i) {
+    if (ring[i].neighbor == state.target) continue;
+    float cost = errors[i];
+    if (attributes_) cost += attribute_cost(point, ring[i].neighbor, offsets[i]);
+    candidates[count++] = {cost, ring[i].neighbor};
   }
   std::sort(candidates, candidates + count, [](const Candidate& a, const Candidate& b) {
     return a.cost != b.cost ? a.cost < b.cost : a.target < b.target;
@@ -133,8 +160,8 @@ void Collapser::try_others(Cell& cell, std::uint32_t point) {
   for (int i = 0; i < count; ++i) {
     if (test(cell, point, candidates[i].target) != Refusal::kLegal) continue;
     state.target = candidates[i].target;
-    state.cost = candidates[i].cost;
-    const std::uint32_t bucket = BucketQueue::bucket_of(state.cost);
+    state.step = from.weight > 0 ? std::sqrt(candidates[i].cost / from.weight) : 0.0f;
+    const std::uint32_t bucket = BucketQueue::bucket_of(candidates[i].cost);
     if (bucket > cell.queue.current())
       requeue(cell, point, bucket);
     else
@@ -146,7 +173,8 @@ void Collapser::try_others(Cell& cell, std::uint32_t point) {
 
 Refusal Collapser::test(Cell& cell, std::uint32_t from, std::uint32_t onto) {
   const Refusal refusal = test_collapse(surface_, from, onto, options_.legality);
-  if (refusal != Refusal::kLegal || surface_.wedge.corners.empty()) return refusal;
+  if (refusal != Refusal::kLegal || (!attributes_ && !surface_.wedge.has_seams()))
+    return refusal;
   RingMerger merger(surface_, cell.scratch);
   return merger.match_wedges(attributes_, from, onto) ? Refusal::kLegal : Refusal::kSeam;
 }
@@ -155,16 +183,14 @@ void Collapser::collapse(Cell& cell, std::uint32_t from, std::uint32_t onto) {
   const std::size_t first_removed = cell.removed_faces.size();
   PointState& state = surface_.points[from];
   PointState& target = surface_.points[onto];
-  const PointQuadric before = point_quadric(surface_, from, options_.quadric);
   const Vec3 d = target.position - state.position;
-  const float step = before.weight > 0 ? std::sqrt(before.quadric.at(d) / before.weight) : 0.0f;
 
   RingMerger(surface_, cell.scratch).merge(from, onto, cell.removed_faces);
   if (attributes_)
     for (std::size_t i = 0; i < cell.scratch.moved_from.size(); ++i)
       attributes_->merge(cell.scratch.moved_from[i], cell.scratch.moved_onto[i], d);
   state.flags |= PointState::kDead;
-  target.error = std::max(target.error, state.error + step);
+  target.error = std::max(target.error, state.error + state.step);
   for (const RingEntry& entry : cell.scratch.ring) touch(cell, entry.neighbor);
 
   cell.log.push_back({from, onto, target.error, static_cast<std::uint16_t>(cell.queue.current()),
@@ -176,10 +202,17 @@ void Collapser::collapse(Cell& cell, std::uint32_t from, std::uint32_t onto) {
 void Collapser::touch(Cell& cell, std::uint32_t point) {
   PointState& state = surface_.points[point];
   state.flags |= PointState::kDirty;
-  if (!(state.flags & PointState::kBlocked)) return;
-  if (kCollapseAlong[static_cast<int>(state.kind)] == CollapseAlong::kNothing) return;
+  wake(cell, point);
+}
+
+bool Collapser::wake(Cell& cell, std::uint32_t point) {
+  PointState& state = surface_.points[point];
+  if (!(state.flags & PointState::kBlocked) || (state.flags & PointState::kDead)) return false;
+  if (kCollapseAlong[static_cast<int>(state.kind)] == CollapseAlong::kNothing) return false;
   state.flags &= ~PointState::kBlocked;
+  state.flags |= PointState::kDirty;
   requeue(cell, point, cell.queue.current());
+  return true;
 }
 
 }  // namespace varifold

@@ -31,6 +31,7 @@ struct Cell {
   std::uint32_t limit = 0;  ///< the bucket at which the present round ends
 
   MergeScratch scratch;
+  RingOffsets offsets;
 };
 
 /// What a Collapser works on besides the surface.
@@ -50,6 +51,10 @@ class Collapser {
   /// Finds the best collapse of every point in the cell and queues it.
   void queue_all(Cell& cell);
 
+  /// Queues a blocked point of the cell again, to be looked at first. False where it is not blocked
+  /// or can never go.
+  bool wake(Cell& cell, std::uint32_t point);
+
   /// Collapses in order of cost until the next bucket is `limit`. With `confined`, points with a
   /// neighbour outside the cell go to `deferred` instead.
   void drain(Cell& cell, std::uint32_t limit, bool confined);
@@ -68,9 +73,8 @@ class Collapser {
   };
   [[nodiscard]] bool leaves_cell(const Cell& cell, std::uint32_t point);
   [[nodiscard]] float attribute_cost(std::uint32_t point, std::uint32_t onto, const Vec3& d);
-  [[nodiscard]] float cost_onto(const PointQuadric& from, std::uint32_t point, std::uint32_t onto);
-  /// Sets target and cost of a point. False where it has no candidate at all.
-  bool find_candidate(std::uint32_t point);
+  /// Sets target and step of a point and returns the cost; target kNone where it may not go.
+  [[nodiscard]] float find_candidate(Cell& cell, std::uint32_t point);
   [[nodiscard]] Refusal test(Cell& cell, std::uint32_t from, std::uint32_t onto);
   /// Tries the candidates of a point from the cheapest on. True when one was done.
   void try_others(Cell& cell, std::uint32_t point);

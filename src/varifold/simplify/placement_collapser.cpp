@@ -6,6 +6,7 @@
 #include <varifold/simplify/bucket_queue.h>
 #include <varifold/simplify/classify.h>
 #include <varifold/simplify/edge_placement.h>
+#include <varifold/simplify/packed_normal.h>
 #include <varifold/simplify/ring_merge.h>
 
 namespace varifold {
@@ -14,6 +15,11 @@ namespace {
 
 constexpr std::uint32_t kReportEvery = 8192;
 
+struct NoPrefetch {
+  void later(std::uint32_t) const {}
+  void soon(std::uint32_t) const {}
+};
+
 class PlacementCollapser {
  public:
   PlacementCollapser(WorkingSurface& surface, const TriangleMesh& mesh,
@@ -21,9 +27,8 @@ class PlacementCollapser {
       : surface_(surface),
         options_(options),
         placement_(placement),
-        merger_(surface, scratch_),
-        attributes_(mesh) {
-    attributes_.indices.clear();
+        merger_(surface, scratch_) {
+    gather_attributes(mesh);
     bucket_.assign(surface.point_count(), kNone);
     quadrics_.resize(surface.point_count());
     placement_.first.push_back(0);
@@ -33,9 +38,8 @@ class PlacementCollapser {
     const std::uint32_t all_faces = std::max(1u, surface_.face_count);
     for (std::uint32_t p = 0; p < surface_.point_count(); ++p) update_quadric(p);
     for (std::uint32_t p = 0; p < surface_.point_count(); ++p) queue_best(p);
-    const auto no_prefetch = [](std::uint32_t) {};
     while (surface_.face_count > options_.target_faces) {
-      const std::uint32_t point = queue_.pop(BucketQueue::kBucketCount, no_prefetch);
+      const std::uint32_t point = queue_.pop(BucketQueue::kBucketCount, NoPrefetch{});
       if (point == kNone) break;
       if (surface_.points[point].flags & PointState::kDead) continue;
       if (bucket_[point] > queue_.current()) continue;
@@ -104,7 +108,8 @@ class PlacementCollapser {
     });
     bucket_[point] = kNone;
     for (const Candidate& candidate : candidates_) {
-      if (test_placed_collapse(surface_, {point, candidate.target, candidate.placement.position},
+      if (test_placed_collapse(surface_, {point, candidate.target, candidate.placement.position,
+                                           merged_normal(point, candidate.target, candidate.placement.position)},
                                options_.legality) != Refusal::kLegal)
         continue;
       if (!merger_.match_wedges(nullptr, point, candidate.target)) continue;
@@ -119,12 +124,21 @@ class PlacementCollapser {
     }
   }
 
+  // The input's normal where the point will be: its own if it stays, else the mean of both.
+  [[nodiscard]] std::uint32_t merged_normal(std::uint32_t from, std::uint32_t onto,
+                                            const Vec3& position) const {
+    if (position == surface_.points[onto].position) return surface_.points[onto].normal;
+    return pack_normal(quadrics_[from].weight * unpack_normal(surface_.points[from].normal) +
+                       quadrics_[onto].weight * unpack_normal(surface_.points[onto].normal));
+  }
+
   void collapse(std::uint32_t from, std::uint32_t onto, const EdgePlacement& placement) {
     log_placement(from, onto, placement.position);
     const std::size_t first_removed = log_.removed_faces.size();
     merger_.merge(from, onto, log_.removed_faces);
     const std::size_t removed = log_.removed_faces.size() - first_removed;
     surface_.points[from].flags |= PointState::kDead;
+    surface_.points[onto].normal = merged_normal(from, onto, placement.position);
     surface_.points[onto].position = placement.position;
     surface_.face_count -= static_cast<std::uint32_t>(removed);
     const float step = placement.weight > 0 ? std::sqrt(placement.error / placement.weight) : 0.0f;
@@ -150,19 +164,24 @@ class PlacementCollapser {
     const float t =
         length > 0 ? std::clamp(glm::dot(position - start, edge) / length, 0.0f, 1.0f) : 1.0f;
     const Vec3 in_model = Vec3(DVec3(position) / surface_.scale + surface_.center);
-    if (surface_.wedge.first_wedge.empty()) {
-      placement_.wedge.push_back(onto);
-      placement_.attributes.positions.push_back(in_model);
-    } else {
-      for (const std::uint32_t wedge : surface_.wedge.of_point(onto)) {
-        const auto& moved_onto = scratch_.moved_onto;
-        const auto found = std::find(moved_onto.begin(), moved_onto.end(), wedge);
-        if (found != moved_onto.end())
-          blend_attributes(scratch_.moved_from[found - moved_onto.begin()], wedge, t);
-        push_attributes(wedge, in_model);
-      }
+    const std::uint32_t first = surface_.wedge.first_of(onto);
+    for (std::uint32_t wedge = first; wedge < first + surface_.wedge.count_of(onto); ++wedge) {
+      const auto& moved_onto = scratch_.moved_onto;
+      const auto found = std::find(moved_onto.begin(), moved_onto.end(), wedge);
+      if (found != moved_onto.end())
+        blend_attributes(scratch_.moved_from[found - moved_onto.begin()], wedge, t);
+      push_attributes(wedge, in_model);
     }
     placement_.first.push_back(static_cast<std::uint32_t>(placement_.wedge.size()));
+  }
+
+  // The attributes of every wedge; without wedge tables there are none.
+  void gather_attributes(const TriangleMesh& mesh) {
+    for (const std::uint32_t v : surface_.wedge.vertex_of) {
+      if (mesh.has_normals()) attributes_.normals.push_back(mesh.normals[v]);
+      if (mesh.has_texcoords()) attributes_.texcoords.push_back(mesh.texcoords[v]);
+      if (mesh.has_colors()) attributes_.colors.push_back(mesh.colors[v]);
+    }
   }
 
   void blend_attributes(std::uint32_t from, std::uint32_t onto, float t) {

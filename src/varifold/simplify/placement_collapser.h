@@ -17,7 +17,7 @@ namespace varifold {
 /// Where the steps of a log move the vertices that stay.
 struct PlacementLog {
   std::vector<std::uint32_t> first;  ///< per step: range in the arrays below; one more at the end
-  std::vector<std::uint32_t> wedge;  ///< vertices of the input; points where there are no wedges
+  std::vector<std::uint32_t> wedge;  ///< which wedge; points where there are no wedge tables
   TriangleMesh attributes;           ///< one vertex an entry, in model units
 };
 

@@ -24,11 +24,48 @@ struct PointQuadric {
   float weight = 0;  ///< a third of the area of its faces
 };
 
+/// The neighbours of a point relative to it, in ring order, axis by axis in blocks of eight that
+/// compilers turn into vector instructions. Reuses its memory; not to be copied while in use.
+class RingOffsets {
+ public:
+  static constexpr std::size_t kBlock = 8;
+
+  void gather(const WorkingSurface& surface, std::uint32_t point);
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] Vec3 operator[](std::size_t i) const { return {x_[i], y_[i], z_[i]}; }
+
+  /// The quadric of the faces, without constraints.
+  [[nodiscard]] PointQuadric face_quadric() const;
+  /// The quadric's error at every neighbour; valid until the next call.
+  [[nodiscard]] const float* errors(const Quadric& quadric);
+
+ private:
+  static constexpr std::size_t kInline = 32;
+  // One more than a block holds: the successor of the last.
+  static constexpr std::size_t padded(std::size_t size) {
+    return (size + kBlock - 1) / kBlock * kBlock + kBlock;
+  }
+
+  float inline_[5 * (kInline + kBlock)];
+  std::vector<float> long_;
+  float* x_ = inline_;
+  float* y_ = nullptr;
+  float* z_ = nullptr;
+  float* is_face_ = nullptr;  // 1, or 0 at a gap
+  float* errors_ = nullptr;
+  std::size_t size_ = 0;
+};
+
+/// Face quadric, constraints and tie-break from gathered offsets.
+[[nodiscard]] PointQuadric point_quadric(WorkingSurface& surface, std::uint32_t point,
+                                         const QuadricOptions& options,
+                                         const RingOffsets& offsets);
+
 /// O(ring); O(ring^2) at feature points.
 [[nodiscard]] PointQuadric point_quadric(WorkingSurface& surface, std::uint32_t point,
                                          const QuadricOptions& options);
 
 /// Enters all faces into the attribute quadrics of their corners. O(n).
-void add_faces_to_attributes(WorkingSurface& surface, AttributeField& attributes);
+void add_faces_to_attributes(WorkingSurface& surface, AttributeField& attributes, int threads);
 
 }  // namespace varifold

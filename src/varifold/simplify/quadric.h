@@ -23,15 +23,6 @@ struct Quadric {
     xy += wn.x * n.y, xz += wn.x * n.z, yz += wn.y * n.z;
   }
 
-  /// Adds the plane of a face with the cross product of two of its edges, weighted with a third of
-  /// its area; returns that weight.
-  float add_face(const Vec3& cross) {
-    const float length = glm::length(cross);
-    if (!(length > 0)) return 0;
-    add_plane(cross, 1 / (6 * length));
-    return length / 6;
-  }
-
   /// Adds weight * (distance to the origin)^2.
   void add_point(float weight) { xx += weight, yy += weight, zz += weight; }
 

@@ -15,7 +15,7 @@ constexpr std::size_t kMaxSplice = 64;
 
 void RingMerger::merge(std::uint32_t from, std::uint32_t onto,
                        std::vector<std::uint32_t>& removed_faces) {
-  if (!surface_.wedge.corners.empty()) move_wedges(from);
+  if (surface_.wedge.has_seams()) move_wedges(from);
   const auto ring = surface_.ring_span(from);
   scratch_.ring.assign(ring.begin(), ring.end());
   if (is_regular_edge(from, onto))
@@ -144,7 +144,7 @@ bool RingMerger::sides_along(std::uint32_t from, std::uint32_t onto) {
   onto_groups.clear();
   const auto ring = surface_.ring_span(from);
   const auto group_at = [&](const RingEntry& entry, std::uint32_t point) {
-    return wedge.group_of[corner_wedge(surface_, entry.face, point)];
+    return wedge.group_of[wedge.at_corner(entry.face, point)];
   };
   const auto next_of = [&](std::size_t i) {
     return ring[i + 1 == ring.size() ? 0 : i + 1].neighbor;
@@ -171,31 +171,29 @@ bool RingMerger::sides_along(std::uint32_t from, std::uint32_t onto) {
 bool RingMerger::match_wedges(const AttributeField* attributes, std::uint32_t from,
                               std::uint32_t onto) {
   const WedgeTables& wedge = surface_.wedge;
-  if (wedge.corners.empty()) return true;
-  const auto from_wedges = wedge.of_point(from);
-  const auto onto_wedges = wedge.of_point(onto);
-  if (from_wedges.size() == 1 && onto_wedges.size() == 1) {
-    scratch_.moved_from.assign(1, from_wedges[0]);
-    scratch_.moved_onto.assign(1, onto_wedges[0]);
+  const std::uint32_t from_first = wedge.first_of(from), from_count = wedge.count_of(from);
+  const std::uint32_t onto_first = wedge.first_of(onto), onto_count = wedge.count_of(onto);
+  if (from_count == 1 && onto_count == 1) {
+    scratch_.moved_from.assign(1, from_first);
+    scratch_.moved_onto.assign(1, onto_first);
     return true;
   }
   if (!sides_along(from, onto)) return false;
   const std::vector<std::uint32_t> from_groups = scratch_.moved_from;
   const std::vector<std::uint32_t> onto_groups = scratch_.moved_onto;
 
-  scratch_.moved_from.assign(from_wedges.begin(), from_wedges.end());
-  scratch_.moved_onto.assign(from_wedges.size(), kNone);
-  for (std::size_t i = 0; i < from_wedges.size(); ++i) {
-    const auto side =
-        std::find(from_groups.begin(), from_groups.end(), wedge.group_of[from_wedges[i]]);
+  scratch_.moved_from.resize(from_count);
+  scratch_.moved_onto.assign(from_count, kNone);
+  for (std::uint32_t i = 0; i < from_count; ++i) {
+    const std::uint32_t moved = scratch_.moved_from[i] = from_first + i;
+    const auto side = std::find(from_groups.begin(), from_groups.end(), wedge.group_of[moved]);
     float nearest = std::numeric_limits<float>::infinity();
-    for (const std::uint32_t candidate : onto_wedges) {
+    for (std::uint32_t candidate = onto_first; candidate < onto_first + onto_count; ++candidate) {
       // A wedge that no face uses any more may go anywhere.
       if (side != from_groups.end() &&
           wedge.group_of[candidate] != onto_groups[side - from_groups.begin()])
         continue;
-      const float distance =
-          attributes ? attributes->distance_squared(from_wedges[i], candidate) : 0.0f;
+      const float distance = attributes ? attributes->distance_squared(moved, candidate) : 0.0f;
       if (!(distance < nearest)) continue;
       nearest = distance;
       scratch_.moved_onto[i] = candidate;
@@ -214,7 +212,7 @@ void RingMerger::move_wedges(std::uint32_t from) {
     if (entry.face == kNone) continue;
     std::uint32_t* corner = &wedge.corners[3 * std::size_t{entry.face}];
     for (int k = 0; k < 3; ++k)
-      if (surface_.point_of_vertex[corner[k]] == from) corner[k] = wedge.target[corner[k]];
+      if (wedge.point_of[corner[k]] == from) corner[k] = wedge.target[corner[k]];
   }
 }
 

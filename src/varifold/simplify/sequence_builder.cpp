@@ -6,14 +6,12 @@ namespace varifold {
 
 namespace {
 
-// A vertex of the output stands for one wedge, or, without wedge tables, for one point.
+// A vertex of the output stands for one wedge; without wedge tables a point is its own wedge.
 class SequenceBuilder {
  public:
   SequenceBuilder(const TriangleMesh& mesh, const WorkingSurface& surface, const CollapseLog& log,
                   std::size_t step_count)
-      : mesh_(mesh), surface_(surface), log_(log), steps_(step_count) {
-    has_wedges_ = !surface.wedge.first_wedge.empty();
-  }
+      : mesh_(mesh), surface_(surface), log_(log), steps_(step_count) {}
 
   DetailedMesh build() {
     number_vertices();
@@ -25,19 +23,17 @@ class SequenceBuilder {
 
  private:
   [[nodiscard]] std::uint32_t wedge_count(std::uint32_t point) const {
-    return has_wedges_ ? static_cast<std::uint32_t>(surface_.wedge.of_point(point).size()) : 1;
+    return surface_.wedge.count_of(point);
   }
 
   // Gives ids from `next` on to the wedges of a point.
   void number_point(std::uint32_t point, std::uint32_t next) {
-    id_of_point_[point] = next;
-    if (!has_wedges_) {
-      out_.original_vertex[next] = first_vertex_[point];
-      return;
-    }
-    for (const std::uint32_t wedge : surface_.wedge.of_point(point)) {
-      out_.original_vertex[next] = wedge;
-      id_of_vertex_[wedge] = next++;
+    const WedgeTables& wedge = surface_.wedge;
+    const std::uint32_t first = wedge.first_of(point);
+    for (std::uint32_t w = first; w < first + wedge.count_of(point); ++w) {
+      out_.original_vertex[next] =
+          wedge.vertex_of.empty() ? surface_.first_vertex_of_point[point] : wedge.vertex_of[w];
+      id_of_wedge_[w] = next++;
     }
   }
 
@@ -51,9 +47,7 @@ class SequenceBuilder {
     for (std::uint32_t p = 0; p < points; ++p) total += wedge_count(p);
 
     out_.original_vertex.resize(total);
-    id_of_point_.resize(points);
-    if (has_wedges_) id_of_vertex_.assign(mesh_.vertex_count(), kNone);
-    first_vertex_ = surface_.first_vertex_of_point;
+    id_of_wedge_.assign(total, kNone);
     std::uint32_t next = 0;
     for (std::uint32_t p = 0; p < points; ++p) {
       if (collapsed[p]) continue;
@@ -75,14 +69,11 @@ class SequenceBuilder {
     sequence.target.assign(out_.original_vertex.size(), kNone);
     for (std::size_t i = 0; i < steps_; ++i) {
       const CollapseLogEntry& entry = log_.entries[i];
-      const std::uint32_t id = id_of_point_[entry.from];
-      if (!has_wedges_) {
-        sequence.target[id] = id_of_point_[entry.onto];
-        continue;
-      }
-      const auto wedges = surface_.wedge.of_point(entry.from);
-      for (std::uint32_t k = 0; k < wedges.size(); ++k)
-        sequence.target[id + k] = id_of_vertex_[surface_.wedge.target[wedges[k]]];
+      const WedgeTables& wedge = surface_.wedge;
+      const std::uint32_t first = wedge.first_of(entry.from);
+      for (std::uint32_t w = first; w < first + wedge.count_of(entry.from); ++w)
+        sequence.target[id_of_wedge_[w]] =
+            id_of_wedge_[wedge.has_seams() ? wedge.target[w] : entry.onto];
     }
   }
 
@@ -119,8 +110,9 @@ class SequenceBuilder {
   }
 
   [[nodiscard]] std::uint32_t new_id(std::uint32_t vertex) const {
-    return has_wedges_ ? id_of_vertex_[surface_.wedge.same_as[vertex]]
-                       : id_of_point_[surface_.point_of_vertex[vertex]];
+    const WedgeTables& wedge = surface_.wedge;
+    return id_of_wedge_[wedge.has_seams() ? wedge.wedge_of_vertex[vertex]
+                                          : surface_.point_of_vertex[vertex]];
   }
 
   // The level of each live face; kNone for triangles that never were faces. Counts per level too.
@@ -184,9 +176,8 @@ class SequenceBuilder {
   const WorkingSurface& surface_;
   const CollapseLog& log_;
   std::size_t steps_;
-  bool has_wedges_ = false;
   DetailedMesh out_;
-  std::vector<std::uint32_t> id_of_point_, id_of_vertex_, first_vertex_;
+  std::vector<std::uint32_t> id_of_wedge_;
 };
 
 }  // namespace
@@ -198,12 +189,13 @@ DetailedMesh build_sequence(const TriangleMesh& mesh, const WorkingSurface& surf
 
 void add_placement(DetailedMesh& detailed, const WorkingSurface& surface,
                    const PlacementLog& placement, std::size_t step_count) {
-  // The log names wedges of the input, or points; the sequence has vertices of its own.
-  const bool has_wedges = !surface.wedge.first_wedge.empty();
-  std::vector<std::uint32_t> id_of(surface.point_of_vertex.size(), kNone);
+  // The log names wedges; the sequence has vertices of its own.
+  const WedgeTables& wedge = surface.wedge;
+  std::vector<std::uint32_t> id_of(detailed.original_vertex.size(), kNone);
   for (std::uint32_t v = 0; v < detailed.original_vertex.size(); ++v) {
     const std::uint32_t original = detailed.original_vertex[v];
-    id_of[has_wedges ? original : surface.point_of_vertex[original]] = v;
+    id_of[wedge.has_seams() ? wedge.wedge_of_vertex[original] : surface.point_of_vertex[original]] =
+        v;
   }
   CollapseSequence& sequence = detailed.sequence;
   const auto copy = [](const auto& from, std::uint32_t j, auto& to) {

@@ -72,7 +72,7 @@ void cut_below(DetailedMesh& detailed, std::uint32_t level) {
 
 CollapseLog run_kept(WorkingSurface& surface, AttributeField& attributes, Collapser& collapser,
                      const SimplifyOptions& options) {
-  if (!attributes.empty()) add_faces_to_attributes(surface, attributes);
+  if (!attributes.empty()) add_faces_to_attributes(surface, attributes, options.threads);
   RoundOptions rounds;
   rounds.target_faces = options.target_triangles;
   rounds.threads = options.threads;
@@ -105,7 +105,8 @@ Result<Simplification> simplify(const TriangleMesh& mesh, const SimplifyOptions&
   const std::uint32_t all_faces = surface.face_count;
   const bool placed = options.placement == Placement::kOptimal;
   AttributeField attributes;
-  if (surface_options.with_wedges && !placed) attributes = AttributeField(mesh, options.attributes);
+  if (surface_options.with_wedges && !placed)
+    attributes = AttributeField(mesh, surface.wedge.vertex_of, options.attributes);
   CollapserOptions collapser_options;
   collapser_options.legality = options.legality;
   Collapser collapser(surface, &attributes, collapser_options);

@@ -8,6 +8,7 @@
 #include <varifold/mesh/weld.h>
 #include <varifold/simplify/classify.h>
 #include <varifold/simplify/morton.h>
+#include <varifold/simplify/packed_normal.h>
 
 namespace varifold {
 
@@ -46,9 +47,7 @@ std::size_t WorkingSurface::bytes() const {
                         sizeof(std::uint32_t) +
                     is_face.capacity() / 8;
   for (const RingPool& pool : pools) sum += pool.bytes();
-  for (const auto* table : {&wedge.corners, &wedge.group_of, &wedge.first_wedge, &wedge.wedges,
-                            &wedge.material_of, &wedge.same_as, &wedge.target})
-    sum += table->capacity() * sizeof(std::uint32_t);
+  sum += wedge.bytes();
   return sum;
 }
 
@@ -76,12 +75,10 @@ struct Builder {
   void make_faces();
   void fill_rings();
   void order_rings(std::uint32_t begin, std::uint32_t end);
+  void set_normal(std::uint32_t point);
   void order_one(std::uint32_t point, std::vector<LinkEdge>& edges, std::vector<RingEntry>& ring);
   static void drop_duplicates(std::vector<LinkEdge>& edges);
   void count_faces();
-  void merge_equal_wedges();
-  void list_wedges(const std::vector<bool>& used);
-  void make_wedges();
 };
 
 // Number the position classes along a Morton curve and scale them to a unit box.
@@ -231,75 +228,24 @@ void Builder::order_one(std::uint32_t point, std::vector<LinkEdge>& edges,
 void Builder::order_rings(std::uint32_t begin, std::uint32_t end) {
   std::vector<LinkEdge> edges;
   std::vector<RingEntry> ring;
-  for (std::uint32_t p = begin; p < end; ++p) order_one(p, edges, ring);
-}
-
-// One wedge for each set of equal attributes at a point; corners name those.
-void Builder::merge_equal_wedges() {
-  WedgeTables& wedge = surface.wedge;
-  const auto equal = [&](std::uint32_t a, std::uint32_t b) {
-    return (!mesh.has_normals() || mesh.normals[a] == mesh.normals[b]) &&
-           (!mesh.has_texcoords() || mesh.texcoords[a] == mesh.texcoords[b]) &&
-           (!mesh.has_colors() || mesh.colors[a] == mesh.colors[b]);
-  };
-  wedge.same_as.resize(mesh.vertex_count());
-  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) wedge.same_as[v] = v;
-  for (std::uint32_t p = 0; p < surface.point_count(); ++p) {
-    const auto wedges = wedge.of_point(p);
-    // Thousands of vertices at one place are locked anyhow (classify.cpp).
-    const std::size_t count = std::min<std::size_t>(wedges.size(), 1024);
-    for (std::size_t i = 1; i < count; ++i)
-      for (std::size_t j = 0; j < i; ++j)
-        if (wedge.same_as[wedges[j]] == wedges[j] && equal(wedges[i], wedges[j])) {
-          wedge.same_as[wedges[i]] = wedges[j];
-          break;
-        }
+  for (std::uint32_t p = begin; p < end; ++p) {
+    order_one(p, edges, ring);
+    set_normal(p);
   }
-  for (std::uint32_t& corner : wedge.corners) corner = wedge.same_as[corner];
 }
 
-// Sort the vertices that corners use by point.
-void Builder::list_wedges(const std::vector<bool>& used) {
-  WedgeTables& wedge = surface.wedge;
-  wedge.first_wedge.assign(surface.point_count() + 1, 0);
-  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v)
-    if (used[v]) ++wedge.first_wedge[surface.point_of_vertex[v] + 1];
-  for (std::size_t p = 1; p < wedge.first_wedge.size(); ++p)
-    wedge.first_wedge[p] += wedge.first_wedge[p - 1];
-  std::vector<std::uint32_t> cursor(wedge.first_wedge.begin(), wedge.first_wedge.end() - 1);
-  wedge.wedges.resize(wedge.first_wedge.back());
-  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v)
-    if (used[v]) wedge.wedges[cursor[surface.point_of_vertex[v]]++] = v;
-}
-
-void Builder::make_wedges() {
-  WedgeTables& wedge = surface.wedge;
-  wedge.corners = mesh.indices;
-  const auto mark_used = [&] {
-    std::vector<bool> used(mesh.vertex_count(), false);
-    for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t)
-      for (std::size_t k = 0; k < 3; ++k)
-        if (surface.is_face[t]) used[wedge.corners[3 * std::size_t{t} + k]] = true;
-    return used;
-  };
-  list_wedges(mark_used());
-  merge_equal_wedges();
-  list_wedges(mark_used());
-  wedge.target.assign(mesh.vertex_count(), kNone);
-
-  // Wedges of a point with equal texture coordinates are one side of a chart.
-  wedge.group_of.resize(mesh.vertex_count());
-  for (std::uint32_t p = 0; p < surface.point_count(); ++p) {
-    const auto wedges = wedge.of_point(p);
-    for (std::size_t i = 0; i < wedges.size(); ++i) {
-      std::uint32_t group = wedges[i];
-      for (std::size_t j = 0; j < std::min<std::size_t>(i, 1024) && group == wedges[i]; ++j)
-        if (!mesh.has_texcoords() || mesh.texcoords[wedges[i]] == mesh.texcoords[wedges[j]])
-          group = wedge.group_of[wedges[j]];
-      wedge.group_of[wedges[i]] = group;
-    }
+// The mean of the normals of the faces around, by area.
+void Builder::set_normal(std::uint32_t point) {
+  PointState& state = surface.points[point];
+  const auto ring = surface.ring_span(point);
+  Vec3 sum(0);
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    if (ring[i].face == kNone) continue;
+    const std::uint32_t next = ring[i + 1 == ring.size() ? 0 : i + 1].neighbor;
+    sum += glm::cross(surface.points[ring[i].neighbor].position - state.position,
+                      surface.points[next].position - state.position);
   }
-  if (mesh.ranges.size() > 1) wedge.material_of = triangle_materials(mesh);
+  state.normal = pack_normal(sum);
 }
 
 }  // namespace
@@ -317,7 +263,7 @@ WorkingSurface build_surface(const TriangleMesh& mesh, const SurfaceOptions& opt
                                      static_cast<std::uint32_t>(end));
                });
   if (builder.any_dropped) builder.count_faces();
-  if (options.with_wedges) builder.make_wedges();
+  if (options.with_wedges) builder.surface.wedge = make_wedges(mesh, builder.surface);
   classify_points(builder.surface, options.threads);
   faults = builder.faults;
   return std::move(builder.surface);

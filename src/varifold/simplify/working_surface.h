@@ -8,10 +8,12 @@
 #include <algorithm>
 #include <cstdint>
 #include <span>
+#include <varifold/base/large_vector.h>
 #include <varifold/base/math.h>
 #include <varifold/mesh/triangle_mesh.h>
 #include <varifold/simplify/rings.h>
 #include <varifold/simplify/vertex_kind.h>
+#include <varifold/simplify/wedge_tables.h>
 #include <vector>
 
 namespace varifold {
@@ -21,7 +23,8 @@ struct alignas(32) PointState {
   Vec3 position{0};
   float error = 0;                ///< estimate of how far the surface around has moved
   std::uint32_t target = kNone;   ///< the best collapse found last
-  float cost = 0;                 ///< of that collapse
+  float step = 0;                 ///< estimate of the distance that it would move the surface
+  std::uint32_t normal = 0;       ///< of the input around the point (packed_normal.h)
   std::uint16_t ring_size = 0;
   VertexKind kind = VertexKind::kManifold;
   std::uint8_t flags = 0;
@@ -39,22 +42,8 @@ struct alignas(64) RingLine {
   RingEntry entries[kCapacity];
 };
 
-/// Wedges and corners, present where the mesh has seams or where attributes are to be kept.
-struct WedgeTables {
-  std::vector<std::uint32_t> corners;      ///< three wedges per face, updated by collapses
-  std::vector<std::uint32_t> group_of;     ///< per wedge: the wedge that stands for its chart side
-  std::vector<std::uint32_t> first_wedge;  ///< per point: range in `wedges`; one more at the end
-  std::vector<std::uint32_t> wedges;       ///< wedges sorted by point
-  std::vector<std::uint32_t> material_of;  ///< per face; empty where there is one material
-  std::vector<std::uint32_t> same_as;      ///< per vertex: the first wedge with equal attributes
-  std::vector<std::uint32_t> target;       ///< per wedge, once its point has collapsed
-  [[nodiscard]] std::span<const std::uint32_t> of_point(std::uint32_t point) const {
-    return {wedges.data() + first_wedge[point], first_wedge[point + 1] - first_wedge[point]};
-  }
-};
-
 struct SurfaceOptions {
-  bool with_wedges = false;  ///< make the wedge tables
+  bool with_wedges = false;  ///< attributes and materials matter: make the wedge tables
   int threads = 0;           ///< 0 = all
   /// Points in a cell (collapse_rounds.h), and so in a ring pool.
   std::uint32_t points_per_cell = 16384;
@@ -62,8 +51,8 @@ struct SurfaceOptions {
 
 class WorkingSurface {
  public:
-  std::vector<PointState> points;
-  std::vector<RingLine> lines;
+  LargeVector<PointState> points;
+  LargeVector<RingLine> lines;
   std::vector<RingPool> pools;
   WedgeTables wedge;
   std::vector<std::uint32_t> point_of_vertex;        ///< kNone for unused vertices
@@ -80,6 +69,9 @@ class WorkingSurface {
     RingLine& line = lines[point];
     if (points[point].ring_size <= RingLine::kCapacity) return line.entries;
     return pools[line.entries[0].face].at(line.entries[0].neighbor);
+  }
+  [[nodiscard]] const RingEntry* ring(std::uint32_t point) const {
+    return const_cast<WorkingSurface*>(this)->ring(point);
   }
   [[nodiscard]] std::span<RingEntry> ring_span(std::uint32_t point) {
     return {ring(point), points[point].ring_size};
