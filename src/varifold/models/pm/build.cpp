@@ -1,7 +1,7 @@
 #include <varifold/models/pm/build.h>
 
-#include <algorithm>
 #include <varifold/simplify/sequence_replay.h>
+#include <algorithm>
 
 namespace varifold {
 

@@ -16,9 +16,7 @@ void copy_one(const std::vector<T>& from, std::uint32_t index, std::vector<T>& t
   if (!from.empty()) to[vertex] = from[index];
 }
 
-std::size_t block_count(std::size_t elements, std::uint32_t bits) {
-  return (elements >> bits) + 1;
-}
+std::size_t block_count(std::size_t elements, std::uint32_t bits) { return (elements >> bits) + 1; }
 
 // Joins neighbouring changed blocks into ranges of elements below `size`, and forgets them.
 void take_blocks(std::vector<std::uint8_t>& blocks, std::uint32_t bits, std::uint32_t size,

@@ -1,10 +1,10 @@
 // One place in a scene where a progressive mesh stands, at a level of its own.
 #pragma once
 
-#include <cstdint>
-#include <memory>
 #include <varifold/models/pm/progressive_mesh.h>
 #include <varifold/view/draw_list.h>
+#include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace varifold {

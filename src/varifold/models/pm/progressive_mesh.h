@@ -5,10 +5,10 @@
 //   step writes about four words and the buffer is ready to be drawn after each.
 #pragma once
 
+#include <varifold/mesh/triangle_mesh.h>
 #include <array>
 #include <cstdint>
 #include <span>
-#include <varifold/mesh/triangle_mesh.h>
 #include <vector>
 
 namespace varifold {
