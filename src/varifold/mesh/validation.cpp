@@ -204,6 +204,7 @@ std::vector<std::uint32_t> flipped_triangles(const TriangleMesh& mesh,
     bool judged = false;
     for (int corner = 0; corner < 3; ++corner) {
       const std::uint32_t c = class_of[mesh.indices[3 * std::size_t{t} + corner]];
+      if (stars.triangles_of(c).empty()) return false;  // a vertex that the reference has not
       for (const std::uint32_t u : stars.triangles_of(c)) {
         if (reference_normals[u] == Vec3(0)) continue;
         if (!(glm::dot(normal, DVec3(reference_normals[u])) < 0)) return false;

@@ -44,8 +44,8 @@ struct Fault {
 /// A triangle is flipped when its normal opposes (dot product < 0) the normals of ALL triangles of
 /// `reference` around the positions of its three corners. Corners are found by equal positions, so
 /// this judges meshes whose vertices were vertices of the reference (half-edge collapses); a
-/// corner that is not there has no say, and a triangle without a known corner is not judged. Nor
-/// are triangles without area, on either side. Being all-or-nothing it never accuses a triangle
+/// triangle with a corner that is not there is not judged. Nor are triangles without area, on
+/// either side. Being all-or-nothing it never accuses a triangle
 /// that spans a crease or a curved region; a folded triangle whose corners lie on creases may
 /// escape. Indices must be valid. O(n), in parallel.
 [[nodiscard]] std::vector<std::uint32_t> flipped_triangles(const TriangleMesh& mesh,

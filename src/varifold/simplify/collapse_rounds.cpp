@@ -31,7 +31,7 @@ class Rounds {
     log_.removed_faces.reserve(surface_.face_count);
     for_each_cell([&](Cell& cell) { collapser_.queue_all(cell); });
     const std::uint32_t all_faces = std::max(1u, surface_.face_count);
-    while (surface_.face_count > options_.target_faces && round()) {
+    while (surface_.face_count > options_.target_faces && (round() || retry_blocked())) {
       log_.queue_bytes = std::max(log_.queue_bytes, queue_bytes());
       merge_cells();
       const float done = 1.0f - static_cast<float>(surface_.face_count) / all_faces;
@@ -61,13 +61,26 @@ class Rounds {
     for (const Cell& cell : cells_) lowest = std::min(lowest, cell.queue.lowest());
     if (lowest == BucketQueue::kBucketCount) return false;
     const bool alone = cells_.size() == 1;
-    const std::uint32_t limit = (lowest / BucketQueue::kBucketsPerOctave + 1) *
-                                BucketQueue::kBucketsPerOctave;
+    const std::uint32_t limit =
+        (lowest / BucketQueue::kBucketsPerOctave + 1) * BucketQueue::kBucketsPerOctave;
 
     for_each_cell([&](Cell& cell) { collapser_.drain(cell, limit, !alone); });
     merge_logs(lowest, limit);
     if (!alone) drain_borders(limit);
     return true;
+  }
+
+  // A point that had no legal collapse is woken by changes in its own ring only, though one farther
+  // off may have made a collapse legal. So they are all tried once more, as long as that helps.
+  bool retry_blocked() {
+    if (log_.entries.size() == entries_at_retry_) return false;
+    entries_at_retry_ = log_.entries.size();
+    bool any = false;
+    for (Cell& cell : cells_) {
+      cell.queue.restart();
+      for (std::uint32_t p = cell.begin; p < cell.end; ++p) any |= collapser_.wake(cell, p);
+    }
+    return any;
   }
 
   // Orders the steps of all cells by cost. A cell's own buckets never go down, so each cell keeps
@@ -149,12 +162,12 @@ class Rounds {
   Cell border_;
   CollapseLog log_;
   std::uint32_t live_points_ = 0;
+  std::size_t entries_at_retry_ = 0;
 };
 
 }  // namespace
 
-CollapseLog run_rounds(WorkingSurface& surface, Collapser& collapser,
-                       const RoundOptions& options) {
+CollapseLog run_rounds(WorkingSurface& surface, Collapser& collapser, const RoundOptions& options) {
   return Rounds(surface, collapser, options).run();
 }
 

@@ -1,13 +1,13 @@
 // Draining collapses from one cell of the surface: pop, test, collapse, log.
 #pragma once
 
-#include <cstdint>
 #include <varifold/simplify/attribute_field.h>
 #include <varifold/simplify/bucket_queue.h>
 #include <varifold/simplify/legality.h>
 #include <varifold/simplify/point_quadric.h>
 #include <varifold/simplify/ring_merge.h>
 #include <varifold/simplify/working_surface.h>
+#include <cstdint>
 #include <vector>
 
 namespace varifold {
@@ -50,6 +50,10 @@ class Collapser {
 
   /// Finds the best collapse of every point in the cell and queues it.
   void queue_all(Cell& cell);
+
+  /// Queues a blocked point of the cell again, to be looked at first. False where it is not blocked
+  /// or can never go.
+  bool wake(Cell& cell, std::uint32_t point);
 
   /// Collapses in order of cost until the next bucket is `limit`. With `confined`, points with a
   /// neighbour outside the cell go to `deferred` instead.

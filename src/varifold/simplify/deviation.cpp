@@ -1,12 +1,12 @@
 #include <varifold/base/parallel.h>
 #include <varifold/simplify/deviation.h>
 
+#include <varifold/simplify/morton.h>
+#include <varifold/simplify/sequence_replay.h>
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <limits>
-#include <varifold/simplify/morton.h>
-#include <varifold/simplify/sequence_replay.h>
 
 namespace varifold {
 
@@ -91,7 +91,8 @@ class SampleCarrier {
     for (std::uint32_t v = sequence.vertices[level - 1]; v < sequence.vertices[level]; ++v)
       replay_.slots_of(v, slots_);
     if (sequence.moves_vertices())
-      for (std::uint32_t j = sequence.first_placed[level - 1]; j < sequence.first_placed[level]; ++j)
+      for (std::uint32_t j = sequence.first_placed[level - 1]; j < sequence.first_placed[level];
+           ++j)
         replay_.slots_of(sequence.placed_vertex[j], slots_);
     moving_ = kNone;
     for (const std::uint32_t slot : slots_) {
@@ -164,8 +165,10 @@ constexpr float kRounding = 1 + 1e-5f;
 bool measure_deviation(DetailedMesh& detailed, const DeviationOptions& options) {
   CollapseSequence& sequence = detailed.sequence;
   const std::uint32_t steps = sequence.step_count();
-  const std::uint32_t shares = std::min(
-      options.threads > 0 ? options.threads : hardware_threads(), 4) > 1 && steps > 10000 ? 2 : 1;
+  const std::uint32_t shares =
+      std::min(options.threads > 0 ? options.threads : hardware_threads(), 4) > 1 && steps > 10000
+          ? 2
+          : 1;
   std::vector<std::vector<float>> squared(shares, std::vector<float>(steps + 1, 0));
   std::atomic<bool> cancelled{false};
 

@@ -63,14 +63,14 @@ EdgePlacement place_edge(const PlacementEdge& edge) {
 
 Refusal test_placed_collapse(WorkingSurface& surface, const PlacedCollapse& collapse,
                              const LegalityOptions& options) {
-  const auto [from, onto, position] = collapse;
+  const auto [from, onto, position, normal] = collapse;
   if (const Refusal refusal = test_connectivity(surface, from, onto, options);
       refusal != Refusal::kLegal)
     return refusal;
-  if (const Refusal refusal = test_faces(surface, {from, onto, position}, options);
+  if (const Refusal refusal = test_faces(surface, {from, onto, position, normal}, options);
       refusal != Refusal::kLegal)
     return refusal;
-  return test_faces(surface, {onto, from, position}, options);
+  return test_faces(surface, {onto, from, position, normal}, options);
 }
 
 }  // namespace varifold

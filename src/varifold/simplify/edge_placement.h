@@ -1,9 +1,9 @@
 // The best place for the vertex that an edge collapses to.
 #pragma once
 
-#include <cstdint>
 #include <varifold/simplify/legality.h>
 #include <varifold/simplify/point_quadric.h>
+#include <cstdint>
 
 namespace varifold {
 
@@ -29,6 +29,7 @@ struct EdgePlacement {
 struct PlacedCollapse {
   std::uint32_t from, onto;
   Vec3 position;
+  std::uint32_t input_normal;  ///< packed; that the merged point will have
 };
 
 /// As test_collapse(), for a collapse that moves both points to a new position.

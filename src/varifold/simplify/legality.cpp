@@ -1,13 +1,18 @@
 #include <varifold/simplify/legality.h>
 
-#include <algorithm>
 #include <varifold/simplify/classify.h>
+#include <varifold/simplify/packed_normal.h>
+#include <algorithm>
 
 namespace varifold {
 
 namespace {
 
-// Neighbours common to both rings, each once. A 64-bit filter settles most of them without a search.
+// Edges of more sheets than this stay as they are.
+constexpr std::uint32_t kMaxEdgeFaces = 64;
+
+// Neighbours common to both rings, each once. A 64-bit filter settles most of them without a
+// search.
 std::uint32_t count_common(std::span<const RingEntry> a, std::span<const RingEntry> b) {
   std::uint64_t filter = 0;
   for (const RingEntry& entry : a) filter |= std::uint64_t{1} << (entry.neighbor & 63);
@@ -23,6 +28,24 @@ std::uint32_t count_common(std::span<const RingEntry> a, std::span<const RingEnt
   return common;
 }
 
+// Whether two points that are both common neighbours are joined by a face of `from` and by one of
+// `onto`: the two faces would fall together.
+bool would_double_face(std::span<const RingEntry> ring, std::span<const RingEntry> onto_ring,
+                       std::span<const std::uint32_t> apexes) {
+  const auto joins = [](std::span<const RingEntry> entries, std::uint32_t a, std::uint32_t b) {
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+      const std::uint32_t m = entries[i].neighbor;
+      const std::uint32_t n = entries[i + 1 == entries.size() ? 0 : i + 1].neighbor;
+      if (entries[i].face != kNone && ((m == a && n == b) || (m == b && n == a))) return true;
+    }
+    return false;
+  };
+  for (std::size_t i = 0; i < apexes.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (joins(ring, apexes[i], apexes[j]) && joins(onto_ring, apexes[i], apexes[j])) return true;
+  return false;
+}
+
 // Two plain rings: the edge has the neighbours before and after `onto` as its apexes.
 Refusal test_plain_topology(WorkingSurface& surface, std::uint32_t from, std::uint32_t onto,
                             const LegalityOptions& options) {
@@ -32,21 +55,18 @@ Refusal test_plain_topology(WorkingSurface& surface, std::uint32_t from, std::ui
   std::size_t at = 0;
   while (at < size && ring[at].neighbor != onto) ++at;
   if (at == size) return Refusal::kTopology;
-  const PointState& a = surface.points[ring[at + 1 == size ? 0 : at + 1].neighbor];
-  const PointState& b = surface.points[ring[at == 0 ? size - 1 : at - 1].neighbor];
-  // A closed ring of three would become two faces back to back.
-  if ((a.ring_size <= 3 && a.kind == VertexKind::kManifold) ||
-      (b.ring_size <= 3 && b.kind == VertexKind::kManifold))
-    return Refusal::kTopology;
   if (count_common(ring, onto_ring) != 2) return Refusal::kTopology;
+  const std::uint32_t apexes[2] = {ring[at + 1 == size ? 0 : at + 1].neighbor,
+                                   ring[at == 0 ? size - 1 : at - 1].neighbor};
+  if (size == 3 && would_double_face(ring, onto_ring, apexes)) return Refusal::kTopology;
   const std::size_t valence = size + onto_ring.size() - 4;
   return valence <= std::max<std::size_t>(options.max_valence, onto_ring.size())
              ? Refusal::kLegal
              : Refusal::kValence;
 }
 
-// The third corners of the faces on the edge must be the only common neighbours, and must keep a
-// neighbourhood of their own.
+// The link of the edge must be the intersection of the links of its ends: the third corners of its
+// faces are the only common neighbours, and no edge is common.
 Refusal test_topology(WorkingSurface& surface, std::uint32_t from, std::uint32_t onto,
                       const LegalityOptions& options) {
   if (surface.points[from].kind == VertexKind::kManifold &&
@@ -55,18 +75,16 @@ Refusal test_topology(WorkingSurface& surface, std::uint32_t from, std::uint32_t
   const auto ring = surface.ring_span(from);
   const auto onto_ring = surface.ring_span(onto);
   std::uint32_t edge_faces = 0;
+  std::uint32_t apexes[kMaxEdgeFaces];
   for (std::size_t i = 0; i < ring.size(); ++i) {
     if (ring[i].face == kNone) continue;
     const std::uint32_t next = ring[i + 1 == ring.size() ? 0 : i + 1].neighbor;
     if (ring[i].neighbor != onto && next != onto) continue;
-    ++edge_faces;
-    const std::uint32_t apex = ring[i].neighbor == onto ? next : ring[i].neighbor;
-    // A closed ring of three would become two faces back to back.
-    if (surface.points[apex].ring_size <= 3 && surface.points[apex].kind != VertexKind::kBorder &&
-        surface.points[apex].kind != VertexKind::kCorner)
-      return Refusal::kTopology;
+    if (edge_faces == kMaxEdgeFaces) return Refusal::kTopology;
+    apexes[edge_faces++] = ring[i].neighbor == onto ? next : ring[i].neighbor;
   }
   if (edge_faces == 0 || count_common(ring, onto_ring) != edge_faces) return Refusal::kTopology;
+  if (would_double_face(ring, onto_ring, {apexes, edge_faces})) return Refusal::kTopology;
 
   const auto valence = static_cast<std::uint32_t>(ring.size() + onto_ring.size()) - 2 - edge_faces;
   const auto before = static_cast<std::uint32_t>(onto_ring.size());
@@ -91,6 +109,18 @@ float longest_squared(const Vec3& a, const Vec3& b, const Vec3& c) {
   return std::max({glm::dot(a, a), glm::dot(b, b), glm::dot(c, c)});
 }
 
+// Whether a face that disagrees with the input at one corner does so at the two others as well.
+// Where the input has no normal, nothing can be said.
+bool opposes_input(const WorkingSurface& surface, const Vec3& normal, std::uint32_t m,
+                   std::uint32_t n) {
+  if (normal == Vec3(0)) return false;
+  for (const std::uint32_t corner : {m, n}) {
+    const Vec3 input_normal = unpack_normal(surface.points[corner].normal);
+    if (input_normal == Vec3(0) || glm::dot(normal, input_normal) > 0) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 // The faces that stay must neither turn too far nor become needles.
@@ -99,6 +129,7 @@ Refusal test_faces(WorkingSurface& surface, const ApexMove& move, const Legality
   const Vec3 old_apex = surface.points[move.point].position;
   const Vec3 new_apex = move.position;
   const std::uint32_t onto = move.partner;
+  const Vec3 input_normal = unpack_normal(move.input_normal);
   const float limit = options.min_normal_cosine * options.min_normal_cosine;
   const float shape_limit = options.min_shape * options.min_shape;
   for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -115,8 +146,12 @@ Refusal test_faces(WorkingSurface& surface, const ApexMove& move, const Legality
     const float new_square = glm::dot(new_normal, new_normal);
     const float cosine = glm::dot(old_normal, new_normal);
     // Products of squared areas can underflow on tiny triangles, so compare ratios by division.
-    if (old_square > 0 &&
-        (cosine <= 0 || (cosine / old_square) * (cosine / new_square) < limit))
+    if (old_square > 0 && (cosine <= 0 || (cosine / old_square) * (cosine / new_square) < limit))
+      return Refusal::kNormal;
+    // Steps that are each small may turn a face right over, so it must agree with the input's
+    // normal at one of its corners at least.
+    if (!(glm::dot(new_normal, input_normal) > 0) && input_normal != Vec3(0) &&
+        opposes_input(surface, new_normal, m, n))
       return Refusal::kNormal;
     if (new_square == 0 && old_square == 0) continue;  // it had no area and has none
     const float longest = longest_squared(pm - new_apex, pn - new_apex, edge);
@@ -141,7 +176,8 @@ Refusal test_collapse(WorkingSurface& surface, std::uint32_t from, std::uint32_t
   if (const Refusal refusal = test_connectivity(surface, from, onto, options);
       refusal != Refusal::kLegal)
     return refusal;
-  return test_faces(surface, {from, onto, surface.points[onto].position}, options);
+  const PointState& target = surface.points[onto];
+  return test_faces(surface, {from, onto, target.position, target.normal}, options);
 }
 
 }  // namespace varifold

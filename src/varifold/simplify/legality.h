@@ -3,11 +3,11 @@
 // Based on: [DeyEdelsbrunnerGuhaNekhayev1999] (link condition), [Hoppe1996] section 3.2.
 // Differs: edges of one face (borders) and of more than two faces use the same rule with their own
 //   face count; normals may turn by 75 degrees, not 90, since a series of near-90 turns flips a
-//   face; fresh needles are refused.
+//   face; a face must agree with the input's normal at one corner; fresh needles are refused.
 #pragma once
 
-#include <cstdint>
 #include <varifold/simplify/working_surface.h>
+#include <cstdint>
 
 namespace varifold {
 
@@ -34,8 +34,8 @@ struct LegalityOptions {
 };
 
 /// Tests everything about collapsing `from` onto its neighbour `onto` but seams. O(valence).
-[[nodiscard]] Refusal test_collapse(WorkingSurface& surface, std::uint32_t from,
-                                    std::uint32_t onto, const LegalityOptions& options);
+[[nodiscard]] Refusal test_collapse(WorkingSurface& surface, std::uint32_t from, std::uint32_t onto,
+                                    const LegalityOptions& options);
 
 /// The part of it that no position matters to: kinds, link condition, valence.
 [[nodiscard]] Refusal test_connectivity(WorkingSurface& surface, std::uint32_t from,
@@ -45,6 +45,7 @@ struct LegalityOptions {
 struct ApexMove {
   std::uint32_t point, partner;
   Vec3 position;
+  std::uint32_t input_normal;  ///< packed; of the input around the new apex
 };
 
 /// The part of it that is about the shape of the faces around one point.

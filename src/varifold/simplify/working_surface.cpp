@@ -1,13 +1,14 @@
 #include <varifold/base/parallel.h>
 #include <varifold/simplify/working_surface.h>
 
+#include <varifold/mesh/weld.h>
+#include <varifold/simplify/classify.h>
+#include <varifold/simplify/morton.h>
+#include <varifold/simplify/packed_normal.h>
 #include <algorithm>
 #include <atomic>
 #include <cstring>
 #include <tuple>
-#include <varifold/mesh/weld.h>
-#include <varifold/simplify/classify.h>
-#include <varifold/simplify/morton.h>
 
 namespace varifold {
 
@@ -35,16 +36,15 @@ void WorkingSurface::set_ring(std::uint32_t point, std::span<const RingEntry> en
 }
 
 std::uint32_t WorkingSurface::live_points() const {
-  return static_cast<std::uint32_t>(std::count_if(points.begin(), points.end(), [](const auto& p) {
-    return !(p.flags & PointState::kDead);
-  }));
+  return static_cast<std::uint32_t>(std::count_if(
+      points.begin(), points.end(), [](const auto& p) { return !(p.flags & PointState::kDead); }));
 }
 
 std::size_t WorkingSurface::bytes() const {
-  std::size_t sum = points.capacity() * sizeof(PointState) + lines.capacity() * sizeof(RingLine) +
-                    (point_of_vertex.capacity() + first_vertex_of_point.capacity()) *
-                        sizeof(std::uint32_t) +
-                    is_face.capacity() / 8;
+  std::size_t sum =
+      points.capacity() * sizeof(PointState) + lines.capacity() * sizeof(RingLine) +
+      (point_of_vertex.capacity() + first_vertex_of_point.capacity()) * sizeof(std::uint32_t) +
+      is_face.capacity() / 8;
   for (const RingPool& pool : pools) sum += pool.bytes();
   sum += wedge.bytes();
   return sum;
@@ -74,6 +74,7 @@ struct Builder {
   void make_faces();
   void fill_rings();
   void order_rings(std::uint32_t begin, std::uint32_t end);
+  void set_normal(std::uint32_t point);
   void order_one(std::uint32_t point, std::vector<LinkEdge>& edges, std::vector<RingEntry>& ring);
   static void drop_duplicates(std::vector<LinkEdge>& edges);
   void count_faces();
@@ -226,7 +227,24 @@ void Builder::order_one(std::uint32_t point, std::vector<LinkEdge>& edges,
 void Builder::order_rings(std::uint32_t begin, std::uint32_t end) {
   std::vector<LinkEdge> edges;
   std::vector<RingEntry> ring;
-  for (std::uint32_t p = begin; p < end; ++p) order_one(p, edges, ring);
+  for (std::uint32_t p = begin; p < end; ++p) {
+    order_one(p, edges, ring);
+    set_normal(p);
+  }
+}
+
+// The mean of the normals of the faces around, by area.
+void Builder::set_normal(std::uint32_t point) {
+  PointState& state = surface.points[point];
+  const auto ring = surface.ring_span(point);
+  Vec3 sum(0);
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    if (ring[i].face == kNone) continue;
+    const std::uint32_t next = ring[i + 1 == ring.size() ? 0 : i + 1].neighbor;
+    sum += glm::cross(surface.points[ring[i].neighbor].position - state.position,
+                      surface.points[next].position - state.position);
+  }
+  state.normal = pack_normal(sum);
 }
 
 }  // namespace

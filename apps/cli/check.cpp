@@ -1,0 +1,132 @@
+// varifold check: proves a mesh or a model sound, or lists what is not.
+#include <apps/cli/commands.h>
+#include <apps/cli/input.h>
+#include <fmt/format.h>
+#include <varifold/measure/check_model.h>
+#include <varifold/measure/surface_distance.h>
+#include <varifold/mesh/validation.h>
+#include <memory>
+
+namespace varifold::cli {
+namespace {
+
+struct CheckCommand {
+  CommonOptions common;
+  std::string input, against;
+  bool closed = false;
+  std::uint32_t samples = 200'000;
+};
+
+Json json_of(const std::vector<Fault>& faults, bool notes) {
+  Json list = Json::array();
+  for (const Fault& fault : faults)
+    if ((fault.severity == Severity::kNote) == notes)
+      list.push_back({{"kind", fault.kind}, {"count", fault.count}, {"where", fault.where}});
+  return list;
+}
+
+CommandResult tell(const CheckCommand& command, const std::vector<Fault>& faults, Report& report) {
+  const bool sound = is_sound(faults);
+  report.set("sound", sound);
+  report.set("faults", json_of(faults, false));
+  report.set("notes", json_of(faults, true));
+  for (const Fault& fault : faults)
+    report.row((fault.severity == Severity::kNote ? "note: " : "FAULT: ") + fault.kind,
+               fmt::format("{} at {}", format_count(fault.count), fault.where));
+  report.row("result", sound ? "sound" : "not sound");
+  const CommandResult done = finish(report, command.common);
+  return done && !sound ? CommandResult(kFailure) : done;
+}
+
+// Adds what only a comparison with the original shows.
+Result<void> compare(const CheckCommand& command, const TriangleMesh& mesh,
+                     std::vector<Fault>& faults, Report& report) {
+  const auto original = read_surface(input_path(command.against));
+  if (!original) return tl::unexpected(original.error());
+  const auto flipped = flipped_triangles(mesh, original->mesh, command.common.threads);
+  report.count("flipped_triangles", "flipped triangles", flipped.size());
+  if (!flipped.empty())
+    faults.insert(faults.begin(),
+                  {"flipped_triangle", flipped.size(),
+                   fmt::format("triangle {}{}", flipped.front(), flipped.size() > 1 ? ", ..." : ""),
+                   Severity::kFault});
+  DistanceOptions options;
+  options.samples = command.samples;
+  options.vertices = true;
+  options.threads = command.common.threads;
+  const SurfaceDistanceReport distance = surface_distance(mesh, original->mesh, options);
+  report.length("rms_error", "error, root mean square", distance.rms);
+  report.length("max_error", "error, maximum", distance.hausdorff);
+  report.set("diagonal", distance.diagonal);
+  return {};
+}
+
+CommandResult check_mesh(const CheckCommand& command, const std::filesystem::path& path) {
+  const Stopwatch watch;
+  const auto imported = read_mesh_loudly(path);
+  if (!imported) return tl::unexpected(imported.error());
+  const TriangleMesh& mesh = imported->mesh;
+  std::vector<Fault> faults = validate(mesh, command.common.threads);
+  for (Fault& fault : faults)
+    if (command.closed && fault.kind == "boundary_edge") fault.severity = Severity::kFault;
+  Report report;
+  report.text("type", "type", "mesh");
+  report.count("vertices", "vertices", mesh.vertex_count());
+  report.count("triangles", "triangles", mesh.triangle_count());
+  if (!command.against.empty())
+    if (auto compared = compare(command, mesh, faults, report); !compared)
+      return tl::unexpected(compared.error());
+  report.set("warnings", imported->warnings);
+  report.seconds("seconds", "time", watch.seconds());
+  return tell(command, faults, report);
+}
+
+CommandResult check_model(const CheckCommand& command, const std::filesystem::path& path) {
+  const Stopwatch watch;
+  if (!command.against.empty()) wrong_usage("--against is for meshes");
+  // Reading verifies the checksums of all chunks.
+  const auto model = read_model(path);
+  if (!model) return tl::unexpected(model.error());
+  ModelCheckOptions options;
+  options.threads = command.common.threads;
+  options.progress = show_progress(path.filename().string());
+  auto check = check_progressive_mesh(*model, options);
+  end_progress();
+  if (!check) return fail_in(path.string(), std::move(check.error()));
+  Report report;
+  report.text("type", "type", "model");
+  report.text("kind", "kind", "pm");
+  report.count("vertices", "vertices", (*model)->data().mesh.vertex_count());
+  report.count("triangles", "triangles", (*model)->triangle_count());
+  report.count("levels", "levels", std::uint64_t{(*model)->finest_level()} + 1);
+  report.count("levels_checked", "levels checked", check->levels_checked);
+  report.count("distances_checked", "errors measured again", check->distances_checked);
+  report.seconds("seconds", "time", watch.seconds());
+  return tell(command, check->faults, report);
+}
+
+}  // namespace
+
+void add_check(CLI::App& app, CommandRunner& runner) {
+  CLI::App* const command = app.add_subcommand("check", "Prove a mesh or a model sound");
+  const auto options = std::make_shared<CheckCommand>();
+  command->add_option("file", options->input, "A mesh or model file; - for a model from stdin")
+      ->required()
+      ->type_name("FILE");
+  command
+      ->add_option("--against", options->against,
+                   "The mesh that this one was made from: looks for flipped triangles, measures")
+      ->type_name("ORIGINAL");
+  command->add_flag("--closed", options->closed, "Boundary edges are faults");
+  command->add_option("--samples", options->samples, "With --against: points per direction")
+      ->check(CLI::Range(1u, 100'000'000u))
+      ->capture_default_str()
+      ->type_name("N");
+  runner.add_common(*command, options->common, true);
+  runner.attach(*command, options->common, [options] {
+    const auto path = input_path(options->input);
+    return is_model_file(path) ? check_model(*options, path) : check_mesh(*options, path);
+  });
+}
+
+}  // namespace varifold::cli

@@ -1,0 +1,82 @@
+// varifold extract: the mesh at a level of a model.
+#include <apps/cli/commands.h>
+#include <apps/cli/input.h>
+#include <apps/cli/level_options.h>
+#include <varifold/models/pm/instance.h>
+#include <memory>
+#include <optional>
+
+namespace varifold::cli {
+namespace {
+
+struct ExtractCommand {
+  CommonOptions common;
+  LevelOptions level;
+  ViewOptions view;
+  bool has_view = false;
+  std::string input, output;
+};
+
+void warn_of_base(const ExtractCommand& command, const ProgressiveMesh& model) {
+  const std::uint32_t base = model.triangle_count(0);
+  if (command.level.triangles && *command.level.triangles < base)
+    print_message(command.input + ": warning: the base has " + format_count(base) +
+                  " triangles; there is nothing coarser");
+}
+
+CommandResult run_extract(const ExtractCommand& command) {
+  const auto input = input_path(command.input), output = output_path(command.output);
+  if (auto writable = check_mesh_output(output, command.common); !writable)
+    return tl::unexpected(writable.error());
+  const Stopwatch watch;
+  const auto model = read_model(input);
+  if (!model) return tl::unexpected(model.error());
+  std::optional<Camera> camera;
+  if (command.has_view) camera = make_camera(command.view, (*model)->data().mesh.positions);
+  const ChosenLevel chosen = choose_level(**model, command.level, camera ? &*camera : nullptr);
+  warn_of_base(command, **model);
+  ProgressiveMeshInstance instance(*model);
+  instance.go_to_level(chosen.level);
+  const TriangleMesh mesh = without_unused_vertices(instance.extract());
+  if (auto written = write_mesh_loudly(mesh, output); !written)
+    return tl::unexpected(written.error());
+
+  Report report;
+  report.text("kind", "kind", "pm");
+  report.count("level", "level", chosen.level);
+  report.count("finest_level", "of", (*model)->finest_level());
+  report.count("vertices", "vertices", mesh.vertex_count());
+  report.count("triangles", "triangles", mesh.triangle_count());
+  report.length("error", "error", (*model)->error(chosen.level));
+  if (camera) {
+    report.length("pixel_error", "error in pixels", chosen.pixel_error);
+    report.set("forced_splits", 0);  // a uniform model has none
+  }
+  report.seconds("seconds", "time", watch.seconds());
+  return finish(report, command.common, output);
+}
+
+}  // namespace
+
+void add_extract(CLI::App& app, CommandRunner& runner) {
+  CLI::App* const command = app.add_subcommand("extract", "Write the mesh at a level of a model");
+  const auto options = std::make_shared<ExtractCommand>();
+  command->add_option("model", options->input, "The model file; - for standard input")
+      ->required()
+      ->type_name("MODEL");
+  add_level_options(*command, options->level);
+  add_view_options(*command, options->view);
+  command->add_option("-o,--output", options->output, "The mesh file: .ply, .obj or .glb")
+      ->required()
+      ->type_name("MESH");
+  runner.add_common(*command, options->common, false);
+  runner.attach(*command, options->common, [options] {
+    if (options->level.empty())
+      wrong_usage("a LEVEL is needed: --lod, --triangles, --vertices, --error or --pixels");
+    check_level_options(options->level);
+    options->has_view = options->view.eye || options->level.pixels;
+    return run_extract(*options);
+  });
+}
+
+}  // namespace varifold::cli

@@ -1,0 +1,173 @@
+#include <apps/cli/context.h>
+#include <apps/cli/level_options.h>
+#include <varifold/mesh/triangle_mesh.h>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <glm/common.hpp>
+#include <string_view>
+#include <utility>
+
+namespace varifold::cli {
+
+namespace {
+
+// Three numbers with commas between; nothing else.
+std::optional<Vec3> parse_point(std::string_view text) {
+  Vec3 point{0};
+  for (int axis = 0; axis < 3; ++axis) {
+    const char* const end = text.data() + text.size();
+    const auto [next, error] = std::from_chars(text.data(), end, point[axis]);
+    if (error != std::errc() || !std::isfinite(point[axis])) return std::nullopt;
+    text = {next, static_cast<std::size_t>(end - next)};
+    if (axis == 2) break;
+    if (!text.starts_with(',')) return std::nullopt;
+    text.remove_prefix(1);
+  }
+  return text.empty() ? std::optional(point) : std::nullopt;
+}
+
+std::optional<std::pair<int, int>> parse_size(std::string_view text) {
+  const std::size_t cross = text.find('x');
+  if (cross == text.npos) return std::nullopt;
+  const auto parse = [](std::string_view part, int& value) {
+    const auto [next, error] = std::from_chars(part.data(), part.data() + part.size(), value);
+    return error == std::errc() && next == part.data() + part.size() && value > 0 && value <= 16384;
+  };
+  std::pair<int, int> size;
+  const bool is_size =
+      parse(text.substr(0, cross), size.first) && parse(text.substr(cross + 1), size.second);
+  return is_size ? std::optional(size) : std::nullopt;
+}
+
+template <class Set>
+void add_point(CLI::App& command, const std::string& name, const std::string& help,
+               const Set& set) {
+  command
+      .add_option_function<std::string>(
+          name,
+          [name, set](const std::string& text) {
+            const auto point = parse_point(text);
+            if (!point) wrong_usage(name + ": '" + text + "' is not a point x,y,z");
+            set(*point);
+          },
+          help)
+      ->type_name("X,Y,Z");
+}
+
+}  // namespace
+
+void add_view_options(CLI::App& command, ViewOptions& options) {
+  add_point(command, "--eye", "Where the camera stands (default: the whole mesh in view)",
+            [&](const Vec3& p) { options.eye = p; });
+  add_point(command, "--target", "The point it looks at (default: the middle of the mesh)",
+            [&](const Vec3& p) { options.target = p; });
+  add_point(command, "--up", "The direction that is up in the picture (default 0,1,0)",
+            [&](const Vec3& p) { options.up = p; });
+  command.add_option("--fovy", options.fovy_degrees, "Vertical angle of view")
+      ->check(CLI::Range(0.01, 179.0))
+      ->capture_default_str()
+      ->type_name("DEGREES");
+  command
+      .add_option_function<std::string>(
+          "--size",
+          [&](const std::string& text) {
+            const auto size = parse_size(text);
+            if (!size) wrong_usage("--size: '" + text + "' is not a size such as 1280x960");
+            options.width = size->first;
+            options.height = size->second;
+          },
+          "Size of the picture in pixels (default 1280x960)")
+      ->type_name("WxH");
+  command.add_option("--azimuth", options.azimuth_degrees, "Without --eye: turn around --up")
+      ->check(CLI::Range(-360.0, 360.0))
+      ->capture_default_str()
+      ->type_name("DEGREES");
+  command.add_option("--elevation", options.elevation_degrees, "Without --eye: angle above")
+      ->check(CLI::Range(-90.0, 90.0))
+      ->capture_default_str()
+      ->type_name("DEGREES");
+}
+
+Camera make_camera(const ViewOptions& options, std::span<const Vec3> points) {
+  Box box;
+  for (const Vec3& p : points) box.add(p);
+  FrameOptions framing;
+  framing.width = options.width;
+  framing.height = options.height;
+  framing.fovy_degrees = options.fovy_degrees;
+  framing.up = options.up;
+  framing.azimuth_degrees = options.azimuth_degrees;
+  framing.elevation_degrees = options.elevation_degrees;
+  Camera camera = frame(points, framing);
+  if (options.eye) camera.eye = *options.eye;
+  if (options.target || options.eye) camera.target = options.target.value_or(box.center());
+  if (options.target || options.eye) set_depth_range(camera, sphere_around(box));
+  if (!is_usable(camera))
+    wrong_usage(
+        "the camera cannot see: --eye and --target are one point, or --up is along the view");
+  return camera;
+}
+
+void add_level_options(CLI::App& command, LevelOptions& options) {
+  const std::string group = "LEVEL";
+  command.add_option("--lod", options.lod, "1 = full detail, 0 = base")
+      ->check(CLI::Range(0.0, 1.0))
+      ->type_name("F")
+      ->group(group);
+  command.add_option("--triangles", options.triangles, "At most so many triangles")
+      ->type_name("N")
+      ->group(group);
+  command.add_option("--vertices", options.vertices, "At most so many vertices")
+      ->type_name("N")
+      ->group(group);
+  command.add_option("--error", options.error, "At most this error, in model units")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("E")
+      ->group(group);
+  command
+      .add_option("--pixels", options.pixels,
+                  "At most this error in pixels, as the camera sees it; also with --triangles")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("T")
+      ->group(group);
+}
+
+void check_level_options(const LevelOptions& options) {
+  const int asked = (options.lod ? 1 : 0) + (options.vertices ? 1 : 0) + (options.error ? 1 : 0) +
+                    (options.pixels || options.triangles ? 1 : 0);
+  if (asked > 1)
+    wrong_usage(
+        "one LEVEL only: --lod, --triangles, --vertices, --error or --pixels (with --triangles)");
+}
+
+namespace {
+
+Vec3 nearest_point(const Box& box, const Vec3& eye) {
+  return glm::clamp(eye, box.lower, box.upper);
+}
+
+}  // namespace
+
+ChosenLevel choose_level(const ProgressiveMesh& model, const LevelOptions& options,
+                         const Camera* camera) {
+  ChosenLevel chosen{model.finest_level(), 0};
+  Box box;
+  for (const Vec3& p : model.data().mesh.positions) box.add(p);
+  if (options.lod) chosen.level = model.level_for_fraction(static_cast<float>(*options.lod));
+  if (options.vertices) chosen.level = model.level_for_vertices(*options.vertices);
+  if (options.error) chosen.level = model.level_for_error(static_cast<float>(*options.error));
+  if (options.triangles) chosen.level = model.level_for_triangles(*options.triangles);
+  if (!camera || box.empty()) return chosen;
+
+  const PixelScale scale(*camera);
+  const Vec3 nearest = nearest_point(box, camera->eye);
+  if (options.pixels) {
+    const float error = scale.error_of(static_cast<float>(*options.pixels), nearest);
+    chosen.level = std::min(chosen.level, model.level_for_error(error));
+  }
+  chosen.pixel_error = scale.pixels_of(model.error(chosen.level), nearest);
+  return chosen;
+}
+
+}  // namespace varifold::cli

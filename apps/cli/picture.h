@@ -1,0 +1,34 @@
+// Pictures of meshes and levels: one OpenGL context, made when it is first needed.
+#pragma once
+
+#include <varifold/base/result.h>
+#include <varifold/render/headless_context.h>
+#include <varifold/render/renderer.h>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace varifold::cli {
+
+class Painter {
+ public:
+  /// kFailed where there is no OpenGL; the message says what to install.
+  [[nodiscard]] static Result<Painter> create();
+
+  [[nodiscard]] const std::string& device() const { return context_.description(); }
+
+  /// Draws the list and writes the picture as PNG. Errors begin with the path.
+  [[nodiscard]] Result<void> paint(const DrawList& list, const Camera& camera,
+                                   const DrawStyle& style, const std::filesystem::path& path);
+  PictureOptions& options() { return options_; }
+
+ private:
+  Painter(HeadlessContext context, Renderer renderer)
+      : context_(std::move(context)), renderer_(std::move(renderer)) {}
+
+  HeadlessContext context_;
+  Renderer renderer_;
+  PictureOptions options_;
+};
+
+}  // namespace varifold::cli

@@ -1,0 +1,147 @@
+// varifold render: a picture of a mesh, or of a level of a model.
+#include <apps/cli/commands.h>
+#include <apps/cli/input.h>
+#include <apps/cli/level_options.h>
+#include <apps/cli/picture.h>
+#include <varifold/models/pm/instance.h>
+#include <varifold/render/mesh_draw_list.h>
+#include <memory>
+#include <optional>
+
+namespace varifold::cli {
+namespace {
+
+struct RenderCommand {
+  CommonOptions common;
+  LevelOptions level;
+  ViewOptions view;
+  std::string input, output, color = "auto";
+  bool flat = false, wireframe = false, cull = false, no_occlusion = false;
+  float wire_width = 1;
+  int supersampling = 2;
+};
+
+// What shows most of what the mesh has.
+ColorMode automatic_color(const TriangleMesh& mesh) {
+  if (mesh.has_colors()) return ColorMode::kVertexColor;
+  return mesh.materials.empty() ? ColorMode::kPlain : ColorMode::kMaterial;
+}
+
+ColorMode color_mode(const std::string& name, const TriangleMesh& mesh) {
+  if (name == "plain") return ColorMode::kPlain;
+  if (name == "material") return ColorMode::kMaterial;
+  if (name == "vertex") return ColorMode::kVertexColor;
+  if (name == "level") return ColorMode::kLevel;
+  return automatic_color(mesh);
+}
+
+// What is drawn: a list, and the mesh whose materials and bounds it has.
+struct Scene {
+  DrawList list;
+  const TriangleMesh* mesh = nullptr;
+  std::uint64_t triangles = 0;
+};
+
+CommandResult render_scene(const RenderCommand& command, const Scene& scene, Report& report) {
+  const auto output = output_path(command.output);
+  const Camera camera = make_camera(command.view, scene.mesh->positions);
+  DrawStyle style;
+  style.shading = command.flat ? Shading::kFlat : Shading::kSmooth;
+  style.color_mode = color_mode(command.color, *scene.mesh);
+  style.back_faces = command.cull ? BackFaces::kCulled : BackFaces::kTinted;
+  style.wireframe = command.wireframe;
+  style.wire_width = command.wire_width;
+  const MeshDrawList materials(*scene.mesh);
+  style.material_colors = materials.material_colors();
+
+  auto painter = Painter::create();
+  if (!painter) return tl::unexpected(painter.error());
+  painter->options().supersampling = command.supersampling;
+  painter->options().ambient_occlusion = !command.no_occlusion;
+  const Stopwatch watch;
+  if (auto painted = painter->paint(scene.list, camera, style, output); !painted)
+    return tl::unexpected(painted.error());
+  report.count("triangles", "triangles", scene.triangles);
+  report.set("width", camera.width);
+  report.set("height", camera.height);
+  report.row("size", std::to_string(camera.width) + " x " + std::to_string(camera.height));
+  report.text("device", "drawn by", painter->device());
+  report.seconds("draw_seconds", "time of the drawing", watch.seconds());
+  return kDone;
+}
+
+CommandResult render_mesh(const RenderCommand& command, const std::filesystem::path& input,
+                          Report& report) {
+  if (!command.level.empty()) wrong_usage(command.input + ": a LEVEL needs a model");
+  if (command.color == "level") wrong_usage(command.input + ": --color level needs a model");
+  auto imported = read_surface(input);
+  if (!imported) return tl::unexpected(imported.error());
+  const TriangleMesh mesh = without_unused_vertices(imported->mesh);
+  return render_scene(command, {MeshDrawList(mesh).list(), &mesh, mesh.triangle_count()}, report);
+}
+
+CommandResult render_model(const RenderCommand& command, const std::filesystem::path& input,
+                           Report& report) {
+  const auto model = read_model(input);
+  if (!model) return tl::unexpected(model.error());
+  const TriangleMesh& full = (*model)->data().mesh;
+  const Camera camera = make_camera(command.view, full.positions);
+  const ChosenLevel chosen = choose_level(**model, command.level, &camera);
+  ProgressiveMeshInstance instance(*model);
+  instance.go_to_level(chosen.level);
+  report.count("level", "level", chosen.level);
+  report.length("error", "error", (*model)->error(chosen.level));
+  report.length("pixel_error", "error in pixels", chosen.pixel_error);
+  return render_scene(command, {instance.draw_list(), &full, instance.triangle_count()}, report);
+}
+
+CommandResult run_render(const RenderCommand& command) {
+  const auto input = input_path(command.input), output = output_path(command.output);
+  if (auto writable = check_output(output, command.common); !writable)
+    return tl::unexpected(writable.error());
+  const Stopwatch watch;
+  Report report;
+  const CommandResult drawn = is_model_file(input) ? render_model(command, input, report)
+                                                   : render_mesh(command, input, report);
+  if (!drawn) return drawn;
+  report.seconds("seconds", "time", watch.seconds());
+  return finish(report, command.common, output);
+}
+
+}  // namespace
+
+void add_render(CLI::App& app, CommandRunner& runner) {
+  CLI::App* const command = app.add_subcommand("render", "Draw a picture of a mesh or a model");
+  const auto options = std::make_shared<RenderCommand>();
+  command->add_option("file", options->input, "A mesh or model file")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("-o,--output", options->output, "The picture, .png")
+      ->required()
+      ->type_name("IMAGE");
+  add_level_options(*command, options->level);
+  add_view_options(*command, options->view);
+  command->add_flag("--flat", options->flat, "Shade every triangle by its own normal");
+  command->add_flag("--wireframe", options->wireframe, "Draw the edges over the shading");
+  command->add_option("--wire-width", options->wire_width, "In pixels")
+      ->check(CLI::Range(0.1, 100.0))
+      ->capture_default_str()
+      ->type_name("W");
+  command->add_option("--color", options->color, "auto, plain, material, vertex or level")
+      ->check(CLI::IsMember({"auto", "plain", "material", "vertex", "level"}))
+      ->capture_default_str()
+      ->type_name("KIND");
+  command->add_flag("--cull", options->cull, "Leave out what is seen from behind (else red)");
+  command->add_flag("--no-occlusion", options->no_occlusion, "Without darkened creases");
+  command->add_option("--supersampling", options->supersampling, "Shaded samples per axis")
+      ->check(CLI::Range(1, 8))
+      ->capture_default_str()
+      ->type_name("N");
+  runner.add_common(*command, options->common, false);
+  runner.attach(*command, options->common, [options] {
+    check_level_options(options->level);
+    return run_render(*options);
+  });
+}
+
+}  // namespace varifold::cli

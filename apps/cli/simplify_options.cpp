@@ -1,0 +1,70 @@
+#include <apps/cli/simplify_options.h>
+#include <fmt/format.h>
+
+namespace varifold::cli {
+
+void add_simplify_flags(CLI::App& command, SimplifyFlags& flags) {
+  command
+      .add_option("--placement", flags.placement,
+                  "kept: vertices of the input only; optimal: where the error is least")
+      ->check(CLI::IsMember({"kept", "optimal"}))
+      ->capture_default_str()
+      ->type_name("KIND");
+  const auto add_weight = [&](const char* name, float& weight, const char* help) {
+    command.add_option(name, weight, help)
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str()
+        ->type_name("W");
+  };
+  add_weight("--normal-weight", flags.weights.normal,
+             "What normals count beside distances, as a part of the diagonal; 0: nothing");
+  add_weight("--texcoord-weight", flags.weights.texcoord, "The same for texture coordinates");
+  add_weight("--color-weight", flags.weights.color, "The same for colours");
+}
+
+SimplifyOptions simplify_options(const SimplifyFlags& flags, const CommonOptions& common,
+                                 const std::filesystem::path& input) {
+  SimplifyOptions options;
+  options.placement = flags.placement == "optimal" ? Placement::kOptimal : Placement::kKept;
+  options.attributes = flags.weights;
+  options.threads = common.threads;
+  options.progress = show_progress(input.filename().string());
+  return options;
+}
+
+namespace {
+
+// Those of the counts that are not zero, by name.
+template <std::size_t kCount>
+Json named_counts(const std::array<std::uint32_t, kCount>& counts, const char* const* names) {
+  Json object = Json::object();
+  for (std::size_t i = 0; i < kCount; ++i)
+    if (counts[i] > 0) object[names[i]] = counts[i];
+  return object;
+}
+
+std::string listed(const Json& counts) {
+  std::string text;
+  for (const auto& [name, count] : counts.items())
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", format_count(count), name);
+  return text;
+}
+
+}  // namespace
+
+void report_stop(const StopReport& stop, const std::filesystem::path& input, Report& report) {
+  report.text("stop_reason", "stopped because", stop_reason_name(stop.reason));
+  if (stop.reason != StopReason::kStuck) return;
+  const Json left = named_counts(stop.left_by_kind, kVertexKindNames);
+  const Json refusals = named_counts(stop.refusals, kRefusalNames);
+  report.set("left_by_kind", left);
+  report.set("refusals", refusals);
+  report.set("advice", stop.advice);
+  print_message(fmt::format("{}: stuck at {} triangles: no legal collapse is left", input.string(),
+                            format_count(stop.triangles)));
+  print_message(fmt::format("{}: vertices left: {}; refused because of: {}", input.string(),
+                            listed(left), listed(refusals)));
+  if (!stop.advice.empty()) print_message(fmt::format("{}: {}", input.string(), stop.advice));
+}
+
+}  // namespace varifold::cli

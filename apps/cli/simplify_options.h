@@ -1,0 +1,28 @@
+// The options of everything that simplifies, and how its end is told.
+#pragma once
+
+#include <apps/cli/context.h>
+#include <apps/cli/report.h>
+#include <varifold/simplify/simplify.h>
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <string>
+
+namespace varifold::cli {
+
+struct SimplifyFlags {
+  std::string placement = "kept";
+  AttributeWeights weights;
+};
+void add_simplify_flags(CLI::App& command, SimplifyFlags& flags);
+
+/// The library's options, without a target.
+[[nodiscard]] SimplifyOptions simplify_options(const SimplifyFlags& flags,
+                                               const CommonOptions& common,
+                                               const std::filesystem::path& input);
+
+/// Adds stop_reason; where the simplifier is stuck also what was left, why, and what would help,
+/// and says so on stderr.
+void report_stop(const StopReport& stop, const std::filesystem::path& input, Report& report);
+
+}  // namespace varifold::cli

@@ -1,0 +1,55 @@
+// Proves a model sound, or lists what is not.
+#pragma once
+
+#include <varifold/base/progress.h>
+#include <varifold/base/result.h>
+#include <varifold/mesh/validation.h>
+#include <varifold/models/pm/progressive_mesh.h>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace varifold {
+
+struct ModelCheckOptions {
+  std::uint32_t all_levels_up_to = 2000;  ///< a model of more levels is checked at a spread of them
+  std::uint32_t spread_levels = 32;       ///< how many; the base and the full level are among them
+  std::uint32_t distance_levels = 8;      ///< levels whose error is measured anew
+  int threads = 0;                        ///< 0 = all
+  Progress progress;
+};
+
+struct ModelCheck {
+  std::vector<Fault> faults;            ///< notes among them, see Severity
+  std::uint32_t levels_checked = 0;     ///< each reached upwards, downwards and from a fresh start
+  std::uint32_t distances_checked = 0;  ///< levels whose error was compared with distances
+};
+
+/// Walks the levels of a progressive mesh by instances, up, down and directly, and looks at each
+/// level that it visits. Topology is judged on the points of the model: the new vertices of one
+/// split are one point, vertices of the base are by position.
+///
+/// Faults, each with the number of levels that have it and the first of them:
+/// - not_identical: the buffers of a level depend on the way to it
+/// - wrong_count: vertices or triangles of the instance are not those of the model
+/// - wrong_corner: a corner is not the ancestor of that of the full mesh, or does not exist
+/// - lost_triangle: one that a level lacks, though its corners have three different ancestors
+/// - not_closed: an open level of a closed mesh
+/// - euler_changed, components_changed: other than of the full mesh
+/// - degenerate_triangle: two corners at one point
+/// - new_duplicate_triangle, new_nonmanifold_edge, new_misoriented_edge: more than the full mesh
+/// has
+/// - flipped_triangle: see flipped_triangles(), against the full mesh; where positions were rounded
+///   only triangles that are thicker than that
+/// - error_not_monotone: negative, not finite, or rising with the level
+/// - error_exceeded: a vertex of the full mesh is farther from the level's surface than its error;
+///   looked at where errors are measured. Where positions were rounded, the error of the full level
+///   says by how much, and that much may be between the two.
+/// Note: coincident_point, points of the model at one position (as by rounding).
+///
+/// The model must be consistent, as from build_progressive_mesh() or decode_progressive_mesh().
+/// O(n) a level. Error: kCancelled.
+[[nodiscard]] Result<ModelCheck> check_progressive_mesh(
+    const std::shared_ptr<const ProgressiveMesh>& model, const ModelCheckOptions& options = {});
+
+}  // namespace varifold
