@@ -39,7 +39,10 @@ Station planet_station(const DemoCommand& command) {
            "A displaced sphere, rough down to the size of its triangles. Every level is a prefix "
            "of one vertex buffer and one index buffer.",
            fmt::format("varifold generate planet --triangles {} --colors", command.triangles),
-           {1, 0.25, 0.05, 0.01, 0.002}},
+           {1, 0.25, 0.05, 0.01, 0.002},
+           20,
+           false,
+           800},
           planet(options)};
 }
 
@@ -63,7 +66,7 @@ Station sphere_station(const DemoCommand& command) {
                    "Each half has a material and a chart of its own. The border between them keeps "
                    "its place at every level.",
                    "varifold generate seamed_sphere --triangles 20000",
-                   {1, 0.1, 0.02},
+                   {1, 0.2, 0.06},
                    20,
                    true},
                   seamed_sphere(with_size<GeneratorOptions>(20'000, command.common.threads))};

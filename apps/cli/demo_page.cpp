@@ -131,6 +131,16 @@ class PageWriter {
     add("<figcaption>" + caption + "</figcaption></figure>\n");
   }
 
+  // A distance as a part of the diagonal.
+  static std::string part_of(double distance, const DemoModel& model) {
+    return distance == 0 ? "0" : fmt::format("{:.2g}", distance / model.diagonal);
+  }
+  static std::string caption(const DemoLevel& level, const DemoModel& model) {
+    const std::string triangles = fmt::format("<b>{}</b> triangles", format_count(level.triangles));
+    if (level.error == 0) return triangles + " · full detail";
+    return triangles + " · error " + part_of(level.error, model) + " of the diagonal";
+  }
+
   void add_head() {
     const DemoModel& planet = result_.models.front();
     add("<header>\n<h1>Any level of detail, exactly</h1>\n");
@@ -164,9 +174,8 @@ class PageWriter {
                     last, last - 2));
     for (std::size_t i = 0; i <= last; ++i) {
       const DemoLevel& level = model.shown[last - i];
-      const std::string told =
-          fmt::format("{} triangles, error {:.2g} of the diagonal", format_count(level.triangles),
-                      level.error / model.diagonal);
+      const std::string told = format_count(level.triangles) + " triangles, error " +
+                               part_of(level.error, model) + " of the diagonal";
       add(fmt::format("<div class=\"stage\" data-level=\"{}\" data-told=\"{}\">\n", i, told));
       add_figure(level.shaded, "shaded: " + told, "<b>shaded</b>");
       add_figure(level.wired, "with edges: " + told, "<b>its triangles</b>");
@@ -180,10 +189,10 @@ class PageWriter {
         "<th>bytes until it is there</th><th>time to extract<br>and write</th></tr>\n");
     for (const DemoLevel& level : model.shown)
       add(fmt::format(
-          "<tr><td><a href=\"{}\">{}</a></td><td>{}</td><td>{}</td><td>{:.2e}</td>"
-          "<td>{:.2e}</td><td>{}</td><td>{:.0f} ms</td></tr>\n",
+          "<tr><td><a href=\"{}\">{}</a></td><td>{}</td><td>{}</td><td>{}</td>"
+          "<td>{}</td><td>{}</td><td>{:.0f} ms</td></tr>\n",
           level.mesh_file, level.mesh_file, format_count(level.triangles),
-          format_count(level.vertices), level.error / model.diagonal, level.rms / model.diagonal,
+          format_count(level.vertices), part_of(level.error, model), part_of(level.rms, model),
           format_bytes(level.stream_bytes), 1000 * level.extract_seconds));
     add("</table>\n");
   }
@@ -198,7 +207,7 @@ class PageWriter {
         crowd.instances, format_count(crowd.triangles), format_count(crowd.full_triangles)));
     add_figure(crowd.picture, "a row of planets", "<b>what you see</b>");
     add("<br>\n");
-    add_figure(crowd.level_picture, "the same with edges", "<b>what is drawn</b>");
+    add_figure(crowd.wired_picture, "the same with edges", "<b>what is drawn</b>");
     add("</div>\n");
   }
 
@@ -223,9 +232,7 @@ class PageWriter {
       add(fmt::format("<h2>{}</h2>\n<p>{}</p>\n<div class=\"row\">\n", model.shape.title,
                       model.shape.text));
       for (const DemoLevel& level : model.shown)
-        add_figure(level.wired, model.shape.title,
-                   fmt::format("<b>{}</b> triangles · error {:.2g} of the diagonal",
-                               format_count(level.triangles), level.error / model.diagonal));
+        add_figure(level.wired, model.shape.title, caption(level, model));
       add("</div>\n");
       if (result_.device.empty()) add_levels(model);
     }

@@ -24,17 +24,14 @@ void tell(const DemoPlace& place, const std::string& line) {
 
 namespace {
 
-constexpr int kWidth = 800;
-constexpr int kHeight = 640;
-
 std::filesystem::path model_path(const DemoPlace& place, const DemoShape& shape) {
   return place.folder / (shape.name + ".vfm");
 }
 
 Camera camera_for(const DemoShape& shape, const TriangleMesh& mesh) {
   FrameOptions framing;
-  framing.width = kWidth;
-  framing.height = kHeight;
+  framing.width = shape.picture_width;
+  framing.height = shape.picture_width * 4 / 5;
   framing.elevation_degrees = shape.elevation_degrees;
   return frame(mesh.positions, framing);
 }
@@ -62,6 +59,7 @@ Result<SharedModel> build(const DemoPlace& place, const TriangleMesh& mesh, Demo
   shown.model_bytes = model->bytes();
   shown.file_bytes = written->file_bytes;
   shown.levels = model->finest_level() + 1;
+  shown.base_triangles = model->triangle_count(0);
   return model;
 }
 
@@ -229,9 +227,9 @@ namespace {
 // Where the instances of the row stand: along a line that goes off to the right, ever farther.
 std::vector<Vec3> crowd_places() {
   std::vector<Vec3> places;
-  float depth = 0, step = 2.6f;
-  for (int i = 0; i < 9; ++i, step *= 1.42f) {
-    places.push_back({0.62f * depth, 0.05f * depth, -depth});
+  float depth = 0, step = 2.4f;
+  for (int i = 0; i < 9; ++i, step *= 1.5f) {
+    places.push_back({1.25f * depth, 0.16f * depth, -depth});
     depth += step;
   }
   return places;
@@ -239,11 +237,11 @@ std::vector<Vec3> crowd_places() {
 
 Camera crowd_camera(const std::vector<Vec3>& places) {
   Camera camera;
-  camera.width = 2 * kWidth;
-  camera.height = kHeight;
-  camera.fovy_degrees = 32;
-  camera.eye = {1.3f, 0.75f, 5.4f};
-  camera.target = {2.6f, 0.35f, -2};
+  camera.width = 1600;
+  camera.height = 560;
+  camera.fovy_degrees = 25;
+  camera.eye = {0.9f, 0.9f, 6.6f};
+  camera.target = {2.35f, 0.35f, 0};
   const float radius = 3 + glm::length(places.back());
   set_depth_range(camera, Sphere{Vec3(0), radius});
   return camera;
@@ -284,10 +282,10 @@ Result<DemoCrowd> show_crowd(const DemoPlace& place, const DemoShape& shape) {
   for (Painter::Item& item : items) {
     item.style.wireframe = true;
     item.style.shading = Shading::kFlat;
-    item.style.wire_width = 0.8f;
+    item.style.color_mode = ColorMode::kPlain;
   }
-  crowd.level_picture = shape.name + "_crowd_wire.png";
-  if (auto done = place.painter->paint(items, camera, place.folder / crowd.level_picture); !done)
+  crowd.wired_picture = shape.name + "_crowd_wire.png";
+  if (auto done = place.painter->paint(items, camera, place.folder / crowd.wired_picture); !done)
     return tl::unexpected(done.error());
   tell(place, fmt::format("{} of them at an error of one pixel: {} triangles instead of {}",
                           crowd.instances, format_count(crowd.triangles),

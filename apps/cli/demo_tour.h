@@ -26,6 +26,7 @@ struct DemoShape {
   std::vector<double> shares;  ///< of the triangles, one level each
   float elevation_degrees = 20;
   bool color_by_material = false;
+  int picture_width = 600;  ///< and four fifths of it high
 };
 
 /// One level, extracted and drawn. Pictures are file names; empty where nothing is drawn.
@@ -41,7 +42,7 @@ struct DemoLevel {
 /// A shape and its model.
 struct DemoModel {
   DemoShape shape;
-  std::uint32_t vertices = 0, triangles = 0;
+  std::uint32_t vertices = 0, triangles = 0, base_triangles = 0;
   double diagonal = 0;
   double build_seconds = 0, simplify_seconds = 0, check_seconds = 0;
   std::uint64_t model_bytes = 0, file_bytes = 0, mesh_bytes = 0;
@@ -63,7 +64,7 @@ struct DemoPrefix {
 struct DemoCrowd {
   std::uint32_t instances = 0;
   std::uint64_t triangles = 0, full_triangles = 0;
-  std::string picture, level_picture;
+  std::string picture, wired_picture;
 };
 
 struct DemoResult {
