@@ -194,8 +194,8 @@ TEST(PmEncoding, DamagedBits) {
   for (const NamedModel* named : small_models(90)) {
     for (const int bits : {0, 12}) {
       Bytes bytes = encode_progressive_mesh(*named->model, {bits, bits, bits});
-      const std::size_t step = 1 + bytes.size() / 250;
-      for (std::size_t bit = 0; bit < 8 * bytes.size(); bit += bit < 1000 ? 1 : step) {
+      const std::size_t step = 1 + bytes.size() / 100;
+      for (std::size_t bit = 0; bit < 8 * bytes.size(); bit += bit < 480 ? 1 : step) {
         const std::byte mask{static_cast<unsigned char>(1u << (bit % 8))};
         bytes[bit / 8] ^= mask;
         expect_fault_or_model(named->name, bytes);

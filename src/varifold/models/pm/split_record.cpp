@@ -1,6 +1,7 @@
 #include <varifold/models/pm/split_record.h>
 
 #include <algorithm>
+#include <bit>
 
 namespace varifold::pm {
 
@@ -72,22 +73,6 @@ std::span<const std::uint32_t> SplitSurface::free_slots(const SplitRecord& recor
   return free;
 }
 
-namespace {
-
-// The first of `these` that is not among `those`; `count` where there is none. No branches inside:
-// fans are short.
-std::uint32_t first_lone(const std::uint32_t* these, const std::uint32_t* those,
-                         std::uint32_t count) {
-  for (std::uint32_t i = 0; i < count; ++i) {
-    std::uint32_t same = 0;
-    for (std::uint32_t j = 0; j < count; ++j) same += these[i] == those[j] ? 1 : 0;
-    if (same == 0) return i;
-  }
-  return count;
-}
-
-}  // namespace
-
 bool SplitSurface::predict_triangles(const SplitRecord& record, const SplitWedge& wedge,
                                      std::uint32_t vertex,
                                      std::vector<NewTriangle>& triangles) const {
@@ -96,21 +81,29 @@ bool SplitSurface::predict_triangles(const SplitRecord& record, const SplitWedge
   if (!wedge.leads && !wedge.closes) return true;
   if (count == 0 || count > kMaxFan) return false;
 
-  // The first spoke begins a triangle and ends none; the last one ends a triangle only.
-  std::array<std::uint32_t, kMaxFan> starts, ends;
+  // The first spoke begins a triangle and ends none; the last one ends a triangle only. Fans are
+  // short: each pair is looked at, without branches.
+  std::array<std::uint32_t, kMaxFan> ends;
+  for (std::uint32_t i = 0; i < count; ++i) ends[i] = corner_before(moved[i]);
+  std::uint64_t lone_starts = 0, met_ends = 0;
   for (std::uint32_t i = 0; i < count; ++i) {
-    starts[i] = corner_after(moved[i]);
-    ends[i] = corner_before(moved[i]);
+    const std::uint32_t start = corner_after(moved[i]);
+    std::uint64_t met = 0;
+    for (std::uint32_t j = 0; j < count; ++j)
+      met |= static_cast<std::uint64_t>(ends[j] == start) << j;
+    lone_starts |= static_cast<std::uint64_t>(met == 0) << i;
+    met_ends |= met;
   }
   if (wedge.leads) {
-    const std::uint32_t i = first_lone(starts.data(), ends.data(), count);
-    if (i == count) return false;
-    slots_.prefetch(starts[i]);
-    triangles.push_back({{vertex, wedge.target, starts[i]}, range_of(moved[i] / 3)});
+    const auto i = static_cast<std::uint32_t>(std::countr_zero(lone_starts));
+    if (i >= count) return false;
+    const std::uint32_t start = corner_after(moved[i]);
+    slots_.prefetch(start);
+    triangles.push_back({{vertex, wedge.target, start}, range_of(moved[i] / 3)});
   }
   if (wedge.closes) {
-    const std::uint32_t i = first_lone(ends.data(), starts.data(), count);
-    if (i == count) return false;
+    const auto i = static_cast<std::uint32_t>(std::countr_one(met_ends));
+    if (i >= count) return false;
     slots_.prefetch(ends[i]);
     triangles.push_back({{vertex, ends[i], wedge.target}, range_of(moved[i] / 3)});
   }
