@@ -2,9 +2,9 @@
 """check_readme.py [--update]: fails where a block of code in README.md is not the file that the
 comment before it names; with --update the files are copied into it. Also fails where README.md or a
 page of docs links to a file that is not there."""
+import glob
 import os
 import re
-import subprocess
 import sys
 
 BLOCK = re.compile(r"(<!-- (\S+\.cpp) -->\n```cpp\n)(.*?)(```\n)", re.DOTALL)
@@ -29,8 +29,7 @@ def check_blocks(text, faults):
 
 
 def check_links(faults):
-    listed = subprocess.run(["git", "ls-files", "*.md"], check=True, capture_output=True, text=True)
-    for name in listed.stdout.split():
+    for name in sorted(glob.glob("*.md") + glob.glob("docs/**/*.md", recursive=True)):
         with open(name, encoding="utf-8") as file:
             for target in LINK.findall(file.read()):
                 if not os.path.exists(os.path.join(os.path.dirname(name), target)):
