@@ -5,8 +5,10 @@
 #include <benchmarks/benchmarks.h>
 #include <varifold/base/random.h>
 #include <varifold/models/pm/build.h>
+#include <varifold/models/pm/encoding.h>
 #include <varifold/models/pm/instance.h>
 #include <varifold/simplify/simplify.h>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -45,6 +47,28 @@ void build(State& state, const std::string& name) {
   state.counters["triangles/s"] =
       Counter(input.mesh.triangle_count(), Counter::kIsIterationInvariantRate);
   state.counters["bytes/vertex"] = static_cast<double>(bytes) / input.mesh.vertex_count();
+}
+
+void count_stream(State& state, std::size_t bytes, std::uint32_t vertices) {
+  state.counters["vertices/s"] = Counter(vertices, Counter::kIsIterationInvariantRate);
+  state.counters["bytes/vertex"] = static_cast<double>(bytes) / vertices;
+}
+
+void encode(State& state, const std::string& name, const EncodeOptions& options) {
+  const auto model = model_of(name);
+  std::size_t bytes = 0;
+  for (auto _ : state) bytes = encode_progressive_mesh(*model, options).size();
+  count_stream(state, bytes, model->data().mesh.vertex_count());
+}
+
+void decode(State& state, const std::string& name, const EncodeOptions& options) {
+  const auto model = model_of(name);
+  const std::vector<std::byte> bytes = encode_progressive_mesh(*model, options);
+  for (auto _ : state) {
+    const auto decoded = decode_progressive_mesh(bytes);
+    if (!decoded) return state.SkipWithError(decoded.error().message.c_str());
+  }
+  count_stream(state, bytes.size(), model->data().mesh.vertex_count());
 }
 
 std::vector<std::uint32_t> linear_levels(std::uint32_t finest) {
@@ -96,6 +120,13 @@ void register_progressive_mesh() {
       benchmark::RegisterBenchmark(title.c_str(), body)->Unit(benchmark::kMillisecond);
     };
     add("build_pm/" + name, [=](State& state) { build(state, name); });
+    for (const int bits : {0, 16}) {
+      EncodeOptions options;
+      options.position_bits = bits;
+      const std::string suffix = bits == 0 ? "floats/" + name : "16_bits/" + name;
+      add("encode_pm/" + suffix, [=](State& state) { encode(state, name, options); });
+      add("decode_pm/" + suffix, [=](State& state) { decode(state, name, options); });
+    }
     add("go_to_level/linear/" + name, [=](State& state) { tour(state, name, linear_levels); });
     add("go_to_level/random/" + name, [=](State& state) { tour(state, name, random_levels); });
   }

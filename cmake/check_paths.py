@@ -7,7 +7,7 @@ import sys
 # A test may need a folder that every Unix has.
 ALLOWED = {("tests/io/output_file_test.cpp", "/tmp")}
 PATTERN = re.compile(
-    r"(?<![\w./~<>$)}])(/(?:tmp|home|root|work|workspace|mnt|media|opt|Users|build|src)\b[\w./-]*)"
+    r"(?<![\w./~<>$)}])(/(?:tmp|home|root|work|workspace|mnt|media|opt|Users)\b[\w./-]*)"
     r"|([A-Z]:\\\\?Users)"
 )
 

@@ -13,5 +13,6 @@ void add_build(CLI::App& app, CommandRunner& runner);
 void add_extract(CLI::App& app, CommandRunner& runner);
 void add_check(CLI::App& app, CommandRunner& runner);
 void add_render(CLI::App& app, CommandRunner& runner);
+void add_demo(CLI::App& app, CommandRunner& runner);
 
 }  // namespace varifold::cli

@@ -2,6 +2,7 @@
 #include <varifold/io/output_file.h>
 #include <varifold/render/png.h>
 #include <utility>
+#include <vector>
 
 namespace varifold::cli {
 
@@ -15,11 +16,36 @@ Result<Painter> Painter::create() {
 
 Result<void> Painter::paint(const DrawList& list, const Camera& camera, const DrawStyle& style,
                             const std::filesystem::path& path) {
-  const auto image = renderer_.render(list, camera, style, options_);
+  const Item item{list, style};
+  return paint(std::span(&item, 1), camera, path);
+}
+
+Result<void> Painter::paint(std::span<const Item> items, const Camera& camera,
+                            const std::filesystem::path& path) {
+  const auto image = draw(items, camera);
   if (!image) return fail_in(path.string(), image.error());
   const auto png = write_png(*image);
   if (!png) return fail_in(path.string(), png.error());
   return write_file(path, *png);
+}
+
+Result<Image8> Painter::draw(std::span<const Item> items, const Camera& camera) {
+  if (auto begun = renderer_.begin(camera, options_); !begun) return tl::unexpected(begun.error());
+  std::vector<GpuMesh> meshes;
+  Result<void> done;
+  for (const Item& item : items) {
+    const auto mesh = renderer_.add(item.list);
+    if (!mesh) {
+      done = tl::unexpected(mesh.error());
+      break;
+    }
+    meshes.push_back(*mesh);
+    done = renderer_.draw(*mesh, item.list, item.style);
+    if (!done) break;
+  }
+  Result<Image8> image = done ? renderer_.read_image() : tl::unexpected(done.error());
+  for (const GpuMesh mesh : meshes) renderer_.remove(mesh);
+  return image;
 }
 
 }  // namespace varifold::cli

@@ -5,7 +5,7 @@
 #include <varifold/render/headless_context.h>
 #include <varifold/render/renderer.h>
 #include <filesystem>
-#include <optional>
+#include <span>
 #include <string>
 
 namespace varifold::cli {
@@ -20,11 +20,20 @@ class Painter {
   /// Draws the list and writes the picture as PNG. Errors begin with the path.
   [[nodiscard]] Result<void> paint(const DrawList& list, const Camera& camera,
                                    const DrawStyle& style, const std::filesystem::path& path);
+  /// Several lists in one picture.
+  struct Item {
+    DrawList list;
+    DrawStyle style;
+  };
+  [[nodiscard]] Result<void> paint(std::span<const Item> items, const Camera& camera,
+                                   const std::filesystem::path& path);
   PictureOptions& options() { return options_; }
 
  private:
   Painter(HeadlessContext context, Renderer renderer)
       : context_(std::move(context)), renderer_(std::move(renderer)) {}
+
+  [[nodiscard]] Result<Image8> draw(std::span<const Item> items, const Camera& camera);
 
   HeadlessContext context_;
   Renderer renderer_;

@@ -1,11 +1,11 @@
 // OpenMesh as a judge that shares no code: it takes only faces that keep a surface manifold.
 #include <gtest/gtest.h>
 
-#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <tests/simplify/sequence_checks.h>
 #include <tests/support/meshes.h>
 #include <varifold/mesh/generators.h>
 #include <varifold/mesh/weld.h>
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 
 namespace varifold {
 namespace {

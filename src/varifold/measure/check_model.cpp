@@ -281,7 +281,11 @@ class ModelChecker {
     ProgressiveMeshInstance instance(model_);
     instance.go_to_level(level);
     const SurfaceDistance surface(instance.extract());
-    const double bound = model_->error(level) * (1 + 1e-5) + model_->error(model_->finest_level());
+    // Even a point on a triangle is a few bits of a double away from it.
+    double reach = 0;
+    for (const Vec3& p : full_mesh_.positions) reach = std::max<double>(reach, glm::length(p));
+    const double bound =
+        model_->error(level) * (1 + 1e-5) + model_->error(model_->finest_level()) + 1e-12 * reach;
     std::atomic<bool> is_exceeded{false};
     parallel_for(options_.threads, full_mesh_.positions.size(), 4096,
                  [&](std::size_t begin, std::size_t end) {

@@ -54,7 +54,7 @@ namespace {
 
 // Points wider than this would overflow the ring size; the fan around them is left alone.
 constexpr std::uint32_t kMaxRing = 60000;
-constexpr std::uint32_t kMaxCells = 64;
+constexpr std::uint32_t kMaxCells = 512;
 
 struct Builder {
   const TriangleMesh& mesh;
