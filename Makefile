@@ -1,10 +1,19 @@
 # Every target does its own set-up on a fresh Debian 12.
 
 JOBS ?= $(shell nproc)
-export CCACHE_BASEDIR := $(CURDIR)
-export CCACHE_NOHASHDIR := 1
 
-.PHONY: demo test deps build bench format tidy clean
+.PHONY: help demo test deps build bench format tidy ci clean
+
+help:
+	@echo "make demo    build and run the tour: pictures of five levels in demo/index.html"
+	@echo "make test    build and run the tests"
+	@echo "make build   build the tool: build/release/bin/varifold"
+	@echo "make bench   build and run the benchmarks (BENCH=regular_expression picks some)"
+	@echo "make deps    install the Debian packages of packages.txt that are missing"
+	@echo "make format  format all sources with clang-format"
+	@echo "make tidy    check all sources with clang-tidy"
+	@echo "make ci      everything that must hold before a change is merged (.ci/run)"
+	@echo "make clean   remove what was built"
 
 demo: build
 	build/release/bin/varifold demo -o demo
@@ -20,7 +29,7 @@ build: deps
 
 bench: deps
 	@sh cmake/build_preset.sh bench
-	build/bench/bin/varifold_benchmarks
+	build/bench/bin/varifold_benchmarks --benchmark_filter='$(or $(BENCH),.)'
 
 format:
 	git ls-files '*.h' '*.cpp' | xargs clang-format -i
@@ -28,5 +37,8 @@ format:
 tidy: deps
 	@sh cmake/tidy.sh
 
+ci:
+	.ci/run
+
 clean:
-	rm -rf build
+	rm -rf build demo

@@ -7,6 +7,7 @@
 #include <varifold/simplify/simplify.h>
 #include <cstdlib>
 #include <iostream>
+#include <memory>
 
 int main(int argc, char** argv) {
   if (argc < 3) return std::cerr << "progressive_mesh INPUT OUTPUT [TRIANGLES]\n", 2;

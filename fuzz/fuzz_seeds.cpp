@@ -5,6 +5,10 @@
 #include <varifold/io/obj.h>
 #include <varifold/io/output_file.h>
 #include <varifold/io/ply.h>
+#include <varifold/mesh/generators.h>
+#include <varifold/models/pm/build.h>
+#include <varifold/models/pm/encoding.h>
+#include <varifold/simplify/simplify.h>
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -76,6 +80,24 @@ std::vector<std::byte> json_and_binary(const std::vector<std::byte>& glb) {
   return seed;
 }
 
+std::vector<std::byte> progressive(const TriangleMesh& mesh, Placement placement, int bits) {
+  SimplifyOptions options;
+  options.placement = placement;
+  return encode_progressive_mesh(build_progressive_mesh(simplify(mesh, options)->detailed),
+                                 {bits, bits, bits});
+}
+
+bool put_progressive_meshes(const std::filesystem::path& folder) {
+  const TriangleMesh sphere = seamed_sphere({.triangles = 80});
+  bool done = put(folder / "kept", progressive(sphere, Placement::kKept, 0));
+  done = put(folder / "grid", progressive(sphere, Placement::kKept, 8)) && done;
+  done = put(folder / "optimal", progressive(sphere, Placement::kOptimal, 8)) && done;
+  done = put(folder / "planet",
+             progressive(planet({{.triangles = 80}, 0.12f, false}), Placement::kKept, 10)) &&
+         done;
+  return put(folder / "all", progressive(with_everything(), Placement::kKept, 0)) && done;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -108,5 +130,6 @@ int main(int argc, char** argv) {
   done = put(folder / "glb" / "scene", as_bytes(kSceneGltf)) && done;
   done = put(folder / "container" / "three", *encode_container(fourcc("KIND"), chunks)) && done;
   done = put(folder / "container" / "none", *encode_container(fourcc("KIND"), {})) && done;
+  done = put_progressive_meshes(folder / "progressive_mesh") && done;
   return done ? 0 : 1;
 }

@@ -49,8 +49,8 @@ TEST(AttributeField, KeepsColorEdges) {
   const Box box = bounds(mesh);
   mesh.colors.resize(mesh.positions.size());
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v)
-    mesh.colors[v] = mesh.positions[v].x < box.center().x ? Color(255, 0, 0, 255)
-                                                          : Color(0, 0, 255, 255);
+    mesh.colors[v] =
+        mesh.positions[v].x < box.center().x ? Color(255, 0, 0, 255) : Color(0, 0, 255, 255);
   const auto colored_area = [&](float weight) {
     SimplifyOptions options;
     options.attributes.color = weight;

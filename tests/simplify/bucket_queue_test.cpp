@@ -1,9 +1,9 @@
 #include <varifold/simplify/bucket_queue.h>
 
 #include <gtest/gtest.h>
+#include <varifold/base/random.h>
 #include <algorithm>
 #include <set>
-#include <varifold/base/random.h>
 
 namespace varifold {
 namespace {

@@ -1,13 +1,13 @@
 #include <varifold/simplify/deviation.h>
 
 #include <gtest/gtest.h>
-#include <algorithm>
-#include <limits>
 #include <tests/simplify/sequence_checks.h>
 #include <tests/support/meshes.h>
 #include <varifold/measure/closest_point.h>
 #include <varifold/measure/surface_distance.h>
 #include <varifold/mesh/generators.h>
+#include <algorithm>
+#include <limits>
 
 namespace varifold {
 namespace {
@@ -44,7 +44,9 @@ TEST_P(Deviation, BoundsTheDistanceOfEveryVertex) {
         tightest = std::min(tightest, sequence.error[level] / distance);
     }
     // It is a measurement and no rough bound: some level reaches it closely.
-    if (tightest < std::numeric_limits<double>::infinity()) EXPECT_LT(tightest, 1.2);
+    if (tightest < std::numeric_limits<double>::infinity()) {
+      EXPECT_LT(tightest, 1.2);
+    }
   }
 }
 

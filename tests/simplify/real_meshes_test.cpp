@@ -52,10 +52,10 @@ TEST(RealMesh, HasLessErrorThanMeshoptimizer) {
       const auto level = ours->detailed.sequence.level_for_triangles(count);
       const TriangleMesh kept = mesh_at_level(ours->detailed, level);
       TriangleMesh theirs = mesh;
-      theirs.indices.resize(meshopt_simplify(
-          theirs.indices.data(), mesh.indices.data(), mesh.indices.size(), &mesh.positions[0].x,
-          mesh.positions.size(), sizeof(Vec3), 3 * std::size_t{kept.triangle_count()}, 1e9f, 0,
-          nullptr));
+      theirs.indices.resize(
+          meshopt_simplify(theirs.indices.data(), mesh.indices.data(), mesh.indices.size(),
+                           &mesh.positions[0].x, mesh.positions.size(), sizeof(Vec3),
+                           3 * std::size_t{kept.triangle_count()}, 1e9f, 0, nullptr));
       const auto our_distance = surface_distance(kept, mesh);
       const auto their_distance = surface_distance(theirs, mesh);
       EXPECT_LT(our_distance.rms, 0.95 * their_distance.rms) << name << " at " << ratio;

@@ -1,9 +1,9 @@
 #include <varifold/simplify/rings.h>
 
 #include <gtest/gtest.h>
-#include <algorithm>
 #include <tests/support/meshes.h>
 #include <varifold/simplify/working_surface.h>
+#include <algorithm>
 
 namespace varifold {
 namespace {

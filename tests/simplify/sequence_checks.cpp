@@ -1,9 +1,9 @@
 #include <tests/simplify/sequence_checks.h>
 
 #include <gtest/gtest.h>
-#include <algorithm>
 #include <varifold/mesh/validation.h>
 #include <varifold/mesh/weld.h>
+#include <algorithm>
 
 namespace varifold::test {
 

@@ -49,8 +49,8 @@ TEST(SequenceReplay, WalksThroughTheLevels) {
       const std::uint32_t before = replay.level();
       replay.collapse();
       ASSERT_EQ(replay.level(), before - 1);
-      ASSERT_EQ(replay.removed().size(), detailed.sequence.triangles[before] -
-                                             detailed.sequence.triangles[before - 1]);
+      ASSERT_EQ(replay.removed().size(),
+                detailed.sequence.triangles[before] - detailed.sequence.triangles[before - 1]);
       if (replay.level() % 7 != 0) continue;
       const auto ancestors = detailed.sequence.ancestors(replay.level());
       for (std::uint32_t t = 0; t < detailed.mesh.triangle_count(); ++t) {

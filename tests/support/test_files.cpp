@@ -1,9 +1,9 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include <tests/support/test_files.h>
 #include <cstdlib>
 #include <stdexcept>
-#include <tests/support/test_files.h>
 
 namespace varifold::test {
 

@@ -28,7 +28,7 @@ class TemporaryFolder {
 }  // namespace varifold::test
 
 /// Binds `variable` to the path of a real mesh, or skips the test, saying so.
-#define VARIFOLD_REAL_MESH_OR_SKIP(variable, name)                     \
-  const auto variable##_found = ::varifold::test::real_mesh(name);     \
+#define VARIFOLD_REAL_MESH_OR_SKIP(variable, name)                       \
+  const auto variable##_found = ::varifold::test::real_mesh(name);       \
   if (!variable##_found) GTEST_SKIP() << "real mesh not here: " << name; \
   const std::filesystem::path variable = *variable##_found

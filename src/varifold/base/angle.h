@@ -49,7 +49,7 @@ namespace varifold {
 }
 
 /// The angle in [0, pi] whose cosine is x (clamped to [-1, 1]), within 3e-8 radians; the same bits
-/// on every system. Based on: [Abramowitz and Stegun 1964] 4.4.46.
+/// on every system. Based on: [AbramowitzStegun1964] 4.4.46.
 [[nodiscard]] inline double arc_cosine(double x) {
   double a = x < 0 ? -x : x;
   if (!(a < 1)) a = 1;

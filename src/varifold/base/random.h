@@ -5,7 +5,7 @@
 
 namespace varifold {
 
-/// SplitMix64 (Steele, Lea, Flood 2014): a 64-bit state, equidistributed, any seed is good.
+/// SplitMix64 [SteeleLeaFlood2014]: a 64-bit state, equidistributed, any seed is good.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}

@@ -1,6 +1,6 @@
 // Small numbers in few bits: Rice codes whose parameter follows the numbers.
 //
-// Based on: [Rice1979]; [Weinberger2000] section III-C (adapting the parameter).
+// Based on: [Rice1979]; [WeinbergerSeroussiSapiro2000] section III-C (adapting the parameter).
 // Differs: the mean is a running one, and very large numbers escape to 32 plain bits.
 #pragma once
 

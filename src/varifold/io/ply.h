@@ -1,4 +1,4 @@
-// PLY, the polygon file format of Stanford (Turk 1994): ASCII and binary of both byte orders.
+// PLY, the polygon file format of Stanford [Turk1994]: ASCII and binary of both byte orders.
 #pragma once
 
 #include <varifold/base/result.h>

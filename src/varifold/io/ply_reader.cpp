@@ -1,4 +1,4 @@
-// Based on: [Turk 1994] the PLY polygon file format.
+// Based on: [Turk1994] the PLY polygon file format.
 #include <fmt/format.h>
 #include <varifold/base/bytes.h>
 #include <varifold/io/import_check.h>

@@ -1,4 +1,4 @@
-// Based on: [Meisters 1975] every simple polygon has two ears; Newell's method for the plane.
+// Based on: [Meisters1975] every simple polygon has two ears; Newell's method for the plane.
 #include <varifold/io/polygon.h>
 
 #include <varifold/io/import_check.h>

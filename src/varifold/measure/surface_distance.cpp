@@ -1,4 +1,4 @@
-// Based on: [Cignoni et al. 1998] (Metro), sampling by area, both directions.
+// Based on: [CignoniRocchiniScopigno1998] (Metro), sampling by area, both directions.
 // Differs: stratified samples; closest points by a bounding volume hierarchy instead of a grid.
 #include <embree3/rtcore.h>
 

@@ -71,7 +71,8 @@ struct SurfaceDistanceReport {
 };
 
 /// Samples `from` by area (by number where it has no area), each sample in its own stratum, and
-/// measures to `to`. The same bytes for any number of threads. Based on: [Cignoni et al. 1998].
+/// measures to `to`. The same bytes for any number of threads.
+/// Based on: [CignoniRocchiniScopigno1998].
 [[nodiscard]] OneSidedDistance sampled_distance(const TriangleMesh& from, const SurfaceDistance& to,
                                                 const DistanceOptions& options = {});
 

@@ -1,4 +1,4 @@
-// Based on: [Perlin 2002].
+// Based on: [Perlin2002].
 // Differs: lattice points are hashed instead of looked up in a permutation table, so that the noise
 // has no period and takes a seed.
 #include <varifold/base/random.h>

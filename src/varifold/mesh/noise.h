@@ -7,7 +7,7 @@
 namespace varifold {
 
 /// Smooth noise over space that is zero at the points of the integer lattice.
-/// Based on: [Perlin 2002].
+/// Based on: [Perlin2002].
 class GradientNoise {
  public:
   explicit GradientNoise(std::uint64_t seed);

@@ -1,4 +1,4 @@
-// Based on: [Thürmer and Wüthrich 1998], weights by angle.
+// Based on: [ThuermerWuethrich1998], weights by angle.
 #include <varifold/base/angle.h>
 #include <varifold/base/disjoint_sets.h>
 #include <varifold/base/parallel.h>

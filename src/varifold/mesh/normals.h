@@ -50,7 +50,7 @@ struct NormalOptions {
 /// groups is split: the first group keeps it, the others get copies at the end of the vertex
 /// buffer. Every normal is a unit vector: where the weighted sum is zero it is that of the first
 /// triangle with an area, or (0, 0, 1). Indices must be valid. O(n log valence); the same bytes
-/// for any number of threads. Based on: [Thürmer and Wüthrich 1998].
+/// for any number of threads. Based on: [ThuermerWuethrich1998].
 void compute_normals(TriangleMesh& mesh, const NormalOptions& options = {});
 
 /// The same where the position classes are known already.

@@ -52,7 +52,7 @@ struct MaterialRange {
 struct TriangleMesh {
   std::vector<Vec3> positions;
   std::vector<Vec3> normals;
-  std::vector<Vec2> texcoords;
+  std::vector<Vec2> texcoords;  ///< (0, 0) is the upper left corner of the image, as in glTF
   std::vector<Color> colors;
   std::vector<std::uint32_t> indices;  ///< three per triangle, counter-clockwise seen from outside
   std::vector<MaterialRange> ranges;

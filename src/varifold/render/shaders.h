@@ -160,7 +160,7 @@ void main() {
 )";
 
 // How much of the sky above each pixel its surroundings hide, from depths alone.
-// Based on: [McGuire et al. 2012] (Scalable Ambient Obscurance), its spiral of samples.
+// Based on: [McGuireMaraLuebke2012] (Scalable Ambient Obscurance), its spiral of samples.
 // Differs: sums the heights of the horizon with a linear fall-off, and uses no depth pyramid.
 inline constexpr std::string_view kOcclusionFragmentShader = R"(
 #ifdef MULTISAMPLE

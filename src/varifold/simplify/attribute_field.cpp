@@ -50,37 +50,82 @@ void AttributeField::add_face(const std::array<std::uint32_t, 3>& wedges, const 
   }
 }
 
-float AttributeField::coupling(std::uint32_t wedge, std::uint32_t onto, const Vec3& d) const {
+AttributeField::Values AttributeField::values(std::uint32_t wedge) const {
+  Values result{};
+  const Channel* channel = channels(wedge);
+  for (int k = 0; k < channel_count_; ++k) result[static_cast<std::size_t>(k)] = channel[k].value;
+  return result;
+}
+
+AttributeField::Values AttributeField::blended(const Blend& blend) const {
+  Values result{};
+  const Channel* from = channels(blend.wedge);
+  const Channel* to = channels(blend.onto);
+  for (int k = 0; k < channel_count_; ++k)
+    result[static_cast<std::size_t>(k)] = (1 - blend.t) * from[k].value + blend.t * to[k].value;
+  return result;
+}
+
+float AttributeField::coupling(std::uint32_t wedge, const Values& values, const Vec3& d) const {
   const Channel* from = channels(wedge);
-  const Channel* to = channels(onto);
   const float weight = head(wedge).weight;
   float sum = 0;
   for (int k = 0; k < channel_count_; ++k) {
-    const float change = to[k].value - from[k].value;
+    const float change = values[static_cast<std::size_t>(k)] - from[k].value;
     const float slope = glm::dot(from[k].gradient, d) + from[k].offset;
     sum += change * (weight * change - 2 * slope);
   }
   return sum;
 }
 
-float AttributeField::cost(std::uint32_t wedge, std::uint32_t onto, const Vec3& d) const {
-  return std::max(0.0f, head(wedge).quadric.at(d) + coupling(wedge, onto, d));
+float AttributeField::cost(std::uint32_t wedge, const Values& values, const Vec3& d) const {
+  return std::max(0.0f, head(wedge).quadric.at(d) + coupling(wedge, values, d));
 }
 
-void AttributeField::merge(std::uint32_t wedge, std::uint32_t onto, const Vec3& d) {
-  const Head& own = head(wedge);
+float AttributeField::cost(std::uint32_t wedge, std::uint32_t onto, const Vec3& d) const {
+  return cost(wedge, values(onto), d);
+}
+
+float AttributeField::cost(const Blend& blend) const {
+  const Values values = blended(blend);
+  return cost(blend.wedge, values, blend.d) + cost(blend.onto, values, blend.onto_d);
+}
+
+void AttributeField::move(std::uint32_t wedge, const Values& values, const Vec3& d) {
+  Head& own = head(wedge);
   Quadric moved = own.quadric.moved_by(d);
-  moved.c = std::max(0.0f, moved.c + coupling(wedge, onto, d));
+  moved.c = std::max(0.0f, moved.c + coupling(wedge, values, d));
+  Channel* channel = channels(wedge);
+  for (int k = 0; k < channel_count_; ++k) {
+    const float change = values[static_cast<std::size_t>(k)] - channel[k].value;
+    moved.b -= change * channel[k].gradient;
+    channel[k].offset += glm::dot(channel[k].gradient, d) - own.weight * change;
+    channel[k].value = values[static_cast<std::size_t>(k)];
+  }
+  own.quadric = moved;
+}
+
+void AttributeField::add(std::uint32_t wedge, std::uint32_t onto) {
   const Channel* from = channels(wedge);
   Channel* to = channels(onto);
   for (int k = 0; k < channel_count_; ++k) {
-    const float change = to[k].value - from[k].value;
-    moved.b -= change * from[k].gradient;
     to[k].gradient += from[k].gradient;
-    to[k].offset += from[k].offset + glm::dot(from[k].gradient, d) - own.weight * change;
+    to[k].offset += from[k].offset;
   }
-  head(onto).quadric += moved;
-  head(onto).weight += own.weight;
+  head(onto).quadric += head(wedge).quadric;
+  head(onto).weight += head(wedge).weight;
+}
+
+void AttributeField::merge(std::uint32_t wedge, std::uint32_t onto, const Vec3& d) {
+  move(wedge, values(onto), d);
+  add(wedge, onto);
+}
+
+void AttributeField::merge(const Blend& blend) {
+  const Values values = blended(blend);
+  move(blend.wedge, values, blend.d);
+  move(blend.onto, values, blend.onto_d);
+  add(blend.wedge, blend.onto);
 }
 
 float AttributeField::distance_squared(std::uint32_t a, std::uint32_t b) const {

@@ -2,16 +2,17 @@
 // simplified surface are from those of the original at the same place.
 //
 // Based on: [Hoppe1999] section 5 (a quadric whose minimum over the attribute is linear in space).
-// Differs: quadrics sit at the wedge and its attribute values, so single precision serves; apart from
+// Differs: quadrics sit at the wedge and its attribute values, so single precision serves; apart
+// from
 //   the geometric error, which keeps no memory, they gather what they have met.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <span>
 #include <varifold/base/large_vector.h>
 #include <varifold/mesh/triangle_mesh.h>
 #include <varifold/simplify/quadric.h>
+#include <array>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 namespace varifold {
@@ -39,14 +40,24 @@ class AttributeField {
 
   /// The face's linear attribute functions enter the quadric of one of its corners: `wedge` with
   /// edges to the two others.
-  void add_face(const std::array<std::uint32_t, 3>& wedges, const Vec3& edge_1,
-                const Vec3& edge_2);
+  void add_face(const std::array<std::uint32_t, 3>& wedges, const Vec3& edge_1, const Vec3& edge_2);
 
   /// The weighted squared attribute error when `wedge` moves by `d` and takes the values of `onto`.
   [[nodiscard]] float cost(std::uint32_t wedge, std::uint32_t onto, const Vec3& d) const;
 
   /// Moves the quadric of `wedge` by `d` to the values of `onto` and adds it there.
   void merge(std::uint32_t wedge, std::uint32_t onto, const Vec3& d);
+
+  /// Two wedges that become one at a place of its own: with values t of the way from those of
+  /// `wedge` to those of `onto`, `d` and `onto_d` away from them.
+  struct Blend {
+    std::uint32_t wedge, onto;
+    float t;
+    Vec3 d, onto_d;
+  };
+  [[nodiscard]] float cost(const Blend& blend) const;
+  /// Does so: `onto` gets the values and both quadrics.
+  void merge(const Blend& blend);
 
   /// The squared weighted difference of two wedges.
   [[nodiscard]] float distance_squared(std::uint32_t a, std::uint32_t b) const;
@@ -81,7 +92,15 @@ class AttributeField {
   [[nodiscard]] const Channel* channels(std::uint32_t wedge) const {
     return reinterpret_cast<const Channel*>(&data_[wedge * stride_ + kHeadFloats]);
   }
-  [[nodiscard]] float coupling(std::uint32_t wedge, std::uint32_t onto, const Vec3& d) const;
+  using Values = std::array<float, kMaxChannels>;
+  [[nodiscard]] Values values(std::uint32_t wedge) const;
+  [[nodiscard]] Values blended(const Blend& blend) const;
+  [[nodiscard]] float coupling(std::uint32_t wedge, const Values& values, const Vec3& d) const;
+  [[nodiscard]] float cost(std::uint32_t wedge, const Values& values, const Vec3& d) const;
+  /// Moves the quadric of a wedge, in place, to another origin and other values.
+  void move(std::uint32_t wedge, const Values& values, const Vec3& d);
+  /// Adds the quadric of `wedge` to that of `onto`, which has the same origin and values.
+  void add(std::uint32_t wedge, std::uint32_t onto);
 
   int channel_count_ = 0;
   std::size_t stride_ = 0;  // floats a wedge

@@ -1,9 +1,9 @@
 // A monotone priority queue of vertices: buckets on the leading bits of a float cost.
 #pragma once
 
+#include <varifold/base/math.h>
 #include <bit>
 #include <cstdint>
-#include <varifold/base/math.h>
 #include <vector>
 
 namespace varifold {

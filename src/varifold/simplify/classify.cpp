@@ -70,8 +70,7 @@ VertexKind kind_of(WorkingSurface& surface, std::uint32_t point) {
   const auto ring = surface.ring_span(point);
   const WedgeTables& wedge = surface.wedge;
   if (ring.empty()) return VertexKind::kLocked;
-  if (wedge.has_seams() && wedge.count_of(point) > kMaxWedges)
-    return VertexKind::kLocked;
+  if (wedge.has_seams() && wedge.count_of(point) > kMaxWedges) return VertexKind::kLocked;
 
   std::size_t gaps = 0;
   for (const RingEntry& entry : ring) gaps += entry.face == kNone;

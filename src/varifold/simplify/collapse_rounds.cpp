@@ -61,8 +61,8 @@ class Rounds {
     for (const Cell& cell : cells_) lowest = std::min(lowest, cell.queue.lowest());
     if (lowest == BucketQueue::kBucketCount) return false;
     const bool alone = cells_.size() == 1;
-    const std::uint32_t limit = (lowest / BucketQueue::kBucketsPerOctave + 1) *
-                                BucketQueue::kBucketsPerOctave;
+    const std::uint32_t limit =
+        (lowest / BucketQueue::kBucketsPerOctave + 1) * BucketQueue::kBucketsPerOctave;
 
     for_each_cell([&](Cell& cell) { collapser_.drain(cell, limit, !alone); });
     merge_logs(lowest, limit);
@@ -167,8 +167,7 @@ class Rounds {
 
 }  // namespace
 
-CollapseLog run_rounds(WorkingSurface& surface, Collapser& collapser,
-                       const RoundOptions& options) {
+CollapseLog run_rounds(WorkingSurface& surface, Collapser& collapser, const RoundOptions& options) {
   return Rounds(surface, collapser, options).run();
 }
 

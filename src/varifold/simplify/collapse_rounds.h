@@ -1,9 +1,9 @@
 // The order of collapses: rounds of one octave of cost, in cells that can be drained in parallel.
 #pragma once
 
-#include <cstdint>
 #include <varifold/base/progress.h>
 #include <varifold/simplify/collapser.h>
+#include <cstdint>
 #include <vector>
 
 namespace varifold {
@@ -17,17 +17,18 @@ struct CollapseLog {
 };
 
 struct RoundOptions {
-  std::uint32_t target_faces = 0;       ///< stop after the round that reaches it
-  int threads = 0;                      ///< 0 = all
+  std::uint32_t target_faces = 0;  ///< stop after the round that reaches it
+  int threads = 0;                 ///< 0 = all
   Progress progress;
 };
 
 /// Collapses until nothing legal is left or the target is reached.
 ///
 /// The surface's ring pools are its cells; their number depends on the mesh alone, so the result
-/// does not depend on the number of threads. In each round every cell collapses what costs less than the round's limit and lies wholly
-/// inside it; the logs are merged by cost; then points with neighbours in other cells follow in one
-/// serial pass. Cells merge as points become few, so the coarse levels see one queue.
+/// does not depend on the number of threads. In each round every cell collapses what costs less
+/// than the round's limit and lies wholly inside it; the logs are merged by cost; then points with
+/// neighbours in other cells follow in one serial pass. Cells merge as points become few, so the
+/// coarse levels see one queue.
 [[nodiscard]] CollapseLog run_rounds(WorkingSurface& surface, Collapser& collapser,
                                      const RoundOptions& options);
 

@@ -35,8 +35,8 @@ std::uint32_t CollapseSequence::level_for_vertices(std::uint32_t count) const {
 }
 
 std::uint32_t CollapseSequence::level_for_error(float bound) const {
-  const auto found = std::partition_point(error.begin(), error.end(),
-                                          [&](float e) { return e > bound; });
+  const auto found =
+      std::partition_point(error.begin(), error.end(), [&](float e) { return e > bound; });
   return std::min(static_cast<std::uint32_t>(found - error.begin()), step_count());
 }
 

@@ -1,8 +1,8 @@
 // CollapseSequence: the one currency of detail. PM, VDPM, LodStrips and MTS are built from it.
 #pragma once
 
-#include <cstdint>
 #include <varifold/mesh/triangle_mesh.h>
+#include <cstdint>
 #include <vector>
 
 namespace varifold {

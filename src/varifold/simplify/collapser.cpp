@@ -4,10 +4,10 @@
 //   legality is tested when a candidate comes up, since few fail.
 #include <varifold/simplify/collapser.h>
 
+#include <varifold/simplify/classify.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <varifold/simplify/classify.h>
 
 namespace varifold {
 
@@ -48,21 +48,12 @@ bool Collapser::leaves_cell(const Cell& cell, std::uint32_t point) {
   return false;
 }
 
+// Of the wedges that meet along the edge; the others are matched when it collapses.
 float Collapser::attribute_cost(std::uint32_t point, std::uint32_t onto, const Vec3& d) {
-  const WedgeTables& wedge = surface_.wedge;
-  if (wedge.count_of(point) == 1 && wedge.count_of(onto) == 1)
-    return attributes_->cost(wedge.first_of(point), wedge.first_of(onto), d);
-  // The wedges that meet along the edge; the others are matched when it collapses.
   float sum = 0;
-  std::uint32_t previous = kNone;
-  const auto ring = surface_.ring_span(point);
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const std::uint32_t next = ring[i + 1 == ring.size() ? 0 : i + 1].neighbor;
-    if (ring[i].face == kNone || (ring[i].neighbor != onto && next != onto)) continue;
-    const std::uint32_t w = wedge.at_corner(ring[i].face, point);
-    if (w != previous) sum += attributes_->cost(w, wedge.at_corner(ring[i].face, onto), d);
-    previous = w;
-  }
+  for_edge_wedges(surface_, point, onto, [&](std::uint32_t from_wedge, std::uint32_t onto_wedge) {
+    sum += attributes_->cost(from_wedge, onto_wedge, d);
+  });
   return sum;
 }
 
@@ -173,8 +164,7 @@ void Collapser::try_others(Cell& cell, std::uint32_t point) {
 
 Refusal Collapser::test(Cell& cell, std::uint32_t from, std::uint32_t onto) {
   const Refusal refusal = test_collapse(surface_, from, onto, options_.legality);
-  if (refusal != Refusal::kLegal || (!attributes_ && !surface_.wedge.has_seams()))
-    return refusal;
+  if (refusal != Refusal::kLegal || (!attributes_ && !surface_.wedge.has_seams())) return refusal;
   RingMerger merger(surface_, cell.scratch);
   return merger.match_wedges(attributes_, from, onto) ? Refusal::kLegal : Refusal::kSeam;
 }

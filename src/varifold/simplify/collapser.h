@@ -1,13 +1,13 @@
 // Draining collapses from one cell of the surface: pop, test, collapse, log.
 #pragma once
 
-#include <cstdint>
 #include <varifold/simplify/attribute_field.h>
 #include <varifold/simplify/bucket_queue.h>
 #include <varifold/simplify/legality.h>
 #include <varifold/simplify/point_quadric.h>
 #include <varifold/simplify/ring_merge.h>
 #include <varifold/simplify/working_surface.h>
+#include <cstdint>
 #include <vector>
 
 namespace varifold {

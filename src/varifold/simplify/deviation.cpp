@@ -1,12 +1,13 @@
 #include <varifold/base/parallel.h>
 #include <varifold/simplify/deviation.h>
 
+#include <varifold/mesh/weld.h>
+#include <varifold/simplify/morton.h>
+#include <varifold/simplify/sequence_replay.h>
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <limits>
-#include <varifold/simplify/morton.h>
-#include <varifold/simplify/sequence_replay.h>
 
 namespace varifold {
 
@@ -34,11 +35,45 @@ float distance_squared_to_triangle(const Vec3& a, const Vec3& b, const Vec3& c) 
   return to(a + vb * inverse * ab + vc * inverse * ac);
 }
 
+// The vertices at each position: where a mesh has seams, the triangles around a point are spread
+// over several of them.
+class VerticesByPlace {
+ public:
+  explicit VerticesByPlace(const TriangleMesh& mesh) {
+    if (!mesh.has_normals() && !mesh.has_texcoords() && !mesh.has_colors() &&
+        mesh.ranges.size() <= 1)
+      return;  // without attributes there is one vertex at a place
+    WeldMap weld = weld_exact(mesh.positions);
+    first_.assign(weld.class_count + 1, 0);
+    for (const std::uint32_t c : weld.class_of) ++first_[c + 1];
+    for (std::size_t c = 1; c < first_.size(); ++c) first_[c] += first_[c - 1];
+    std::vector<std::uint32_t> cursor(first_.begin(), first_.end() - 1);
+    vertices_.resize(weld.class_of.size());
+    for (std::uint32_t v = 0; v < weld.class_of.size(); ++v)
+      vertices_[cursor[weld.class_of[v]]++] = v;
+    class_of_ = std::move(weld.class_of);
+  }
+
+  template <class Visit>
+  void for_each_at(std::uint32_t vertex, const Visit& visit) const {
+    if (class_of_.empty()) return visit(vertex);
+    const std::uint32_t c = class_of_[vertex];
+    for (std::uint32_t i = first_[c]; i < first_[c + 1]; ++i) visit(vertices_[i]);
+  }
+
+ private:
+  std::vector<std::uint32_t> class_of_, first_, vertices_;
+};
+
 // One share of the samples, carried down a replay of its own.
 class SampleCarrier {
  public:
-  SampleCarrier(const DetailedMesh& detailed, std::uint32_t share, std::uint32_t shares)
-      : detailed_(detailed), positions_(detailed.mesh.positions), replay_(detailed) {
+  SampleCarrier(const DetailedMesh& detailed, const VerticesByPlace& places, std::uint32_t share,
+                std::uint32_t shares)
+      : detailed_(detailed),
+        places_(places),
+        positions_(detailed.mesh.positions),
+        replay_(detailed) {
     first_sample_.assign(detailed.mesh.triangle_count(), kNone);
     std::vector<std::uint32_t> triangle_of(detailed.mesh.vertex_count(), kNone);
     for (std::size_t slot = 0; slot < detailed.mesh.indices.size(); ++slot)
@@ -91,7 +126,8 @@ class SampleCarrier {
     for (std::uint32_t v = sequence.vertices[level - 1]; v < sequence.vertices[level]; ++v)
       replay_.slots_of(v, slots_);
     if (sequence.moves_vertices())
-      for (std::uint32_t j = sequence.first_placed[level - 1]; j < sequence.first_placed[level]; ++j)
+      for (std::uint32_t j = sequence.first_placed[level - 1]; j < sequence.first_placed[level];
+           ++j)
         replay_.slots_of(sequence.placed_vertex[j], slots_);
     moving_ = kNone;
     for (const std::uint32_t slot : slots_) {
@@ -124,10 +160,11 @@ class SampleCarrier {
     if (sequence.moves_vertices() || candidates_.empty()) {
       slots_.clear();
       for (std::uint32_t v = sequence.vertices[level]; v < sequence.vertices[level + 1]; ++v)
-        replay_.slots_of(sequence.target[v], slots_);
+        places_.for_each_at(sequence.target[v],
+                            [&](std::uint32_t w) { replay_.slots_of(w, slots_); });
       for (const std::uint32_t slot : slots_) candidates_.push_back(slot / 3);
     }
-    if (candidates_.empty()) candidates_.push_back(0);  // a sheet shrank to nothing: any will do
+    if (candidates_.empty()) candidates_.push_back(0);  // never: a collapse leaves faces behind
   }
 
   float attach_to_nearest(std::uint32_t sample) {
@@ -147,6 +184,7 @@ class SampleCarrier {
   }
 
   const DetailedMesh& detailed_;
+  const VerticesByPlace& places_;
   std::vector<Vec3> positions_;  // at the present level
   SequenceReplay replay_;
   std::vector<std::uint32_t> first_sample_;  // per triangle
@@ -164,13 +202,16 @@ constexpr float kRounding = 1 + 1e-5f;
 bool measure_deviation(DetailedMesh& detailed, const DeviationOptions& options) {
   CollapseSequence& sequence = detailed.sequence;
   const std::uint32_t steps = sequence.step_count();
-  const std::uint32_t shares = std::min(
-      options.threads > 0 ? options.threads : hardware_threads(), 4) > 1 && steps > 10000 ? 2 : 1;
+  const std::uint32_t shares =
+      std::min(options.threads > 0 ? options.threads : hardware_threads(), 4) > 1 && steps > 10000
+          ? 2
+          : 1;
   std::vector<std::vector<float>> squared(shares, std::vector<float>(steps + 1, 0));
   std::atomic<bool> cancelled{false};
+  const VerticesByPlace places(detailed.mesh);
 
   parallel_for(options.threads, shares, 1, [&](std::size_t share, std::size_t) {
-    SampleCarrier carrier(detailed, static_cast<std::uint32_t>(share), shares);
+    SampleCarrier carrier(detailed, places, static_cast<std::uint32_t>(share), shares);
     while (carrier.level() > 0 && !cancelled) {
       const std::uint32_t level = carrier.level() - 1;
       squared[share][level] = carrier.collapse();

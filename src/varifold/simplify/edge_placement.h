@@ -1,9 +1,9 @@
 // The best place for the vertex that an edge collapses to.
 #pragma once
 
-#include <cstdint>
 #include <varifold/simplify/legality.h>
 #include <varifold/simplify/point_quadric.h>
+#include <cstdint>
 
 namespace varifold {
 

@@ -1,8 +1,8 @@
 #include <varifold/simplify/legality.h>
 
-#include <algorithm>
 #include <varifold/simplify/classify.h>
 #include <varifold/simplify/packed_normal.h>
+#include <algorithm>
 
 namespace varifold {
 
@@ -11,7 +11,8 @@ namespace {
 // Edges of more sheets than this stay as they are.
 constexpr std::uint32_t kMaxEdgeFaces = 64;
 
-// Neighbours common to both rings, each once. A 64-bit filter settles most of them without a search.
+// Neighbours common to both rings, each once. A 64-bit filter settles most of them without a
+// search.
 std::uint32_t count_common(std::span<const RingEntry> a, std::span<const RingEntry> b) {
   std::uint64_t filter = 0;
   for (const RingEntry& entry : a) filter |= std::uint64_t{1} << (entry.neighbor & 63);
@@ -145,8 +146,7 @@ Refusal test_faces(WorkingSurface& surface, const ApexMove& move, const Legality
     const float new_square = glm::dot(new_normal, new_normal);
     const float cosine = glm::dot(old_normal, new_normal);
     // Products of squared areas can underflow on tiny triangles, so compare ratios by division.
-    if (old_square > 0 &&
-        (cosine <= 0 || (cosine / old_square) * (cosine / new_square) < limit))
+    if (old_square > 0 && (cosine <= 0 || (cosine / old_square) * (cosine / new_square) < limit))
       return Refusal::kNormal;
     // Steps that are each small may turn a face right over, so it must agree with the input's
     // normal at one of its corners at least.

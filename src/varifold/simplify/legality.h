@@ -6,8 +6,8 @@
 //   face; a face must agree with the input's normal at one corner; fresh needles are refused.
 #pragma once
 
-#include <cstdint>
 #include <varifold/simplify/working_surface.h>
+#include <cstdint>
 
 namespace varifold {
 
@@ -34,8 +34,8 @@ struct LegalityOptions {
 };
 
 /// Tests everything about collapsing `from` onto its neighbour `onto` but seams. O(valence).
-[[nodiscard]] Refusal test_collapse(WorkingSurface& surface, std::uint32_t from,
-                                    std::uint32_t onto, const LegalityOptions& options);
+[[nodiscard]] Refusal test_collapse(WorkingSurface& surface, std::uint32_t from, std::uint32_t onto,
+                                    const LegalityOptions& options);
 
 /// The part of it that no position matters to: kinds, link condition, valence.
 [[nodiscard]] Refusal test_connectivity(WorkingSurface& surface, std::uint32_t from,

@@ -3,9 +3,9 @@
 // Based on: [Morton1966].
 #pragma once
 
+#include <varifold/base/math.h>
 #include <cstdint>
 #include <span>
-#include <varifold/base/math.h>
 #include <vector>
 
 namespace varifold {

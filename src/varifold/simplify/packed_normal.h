@@ -1,9 +1,9 @@
 // A direction in 32 bits: ten bits an axis.
 #pragma once
 
+#include <varifold/base/math.h>
 #include <cmath>
 #include <cstdint>
-#include <varifold/base/math.h>
 
 namespace varifold {
 

@@ -1,13 +1,14 @@
 #include <varifold/simplify/placement_collapser.h>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <varifold/simplify/bucket_queue.h>
 #include <varifold/simplify/classify.h>
 #include <varifold/simplify/edge_placement.h>
 #include <varifold/simplify/packed_normal.h>
 #include <varifold/simplify/ring_merge.h>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
 
 namespace varifold {
 
@@ -22,15 +23,16 @@ struct NoPrefetch {
 
 class PlacementCollapser {
  public:
-  PlacementCollapser(WorkingSurface& surface, const TriangleMesh& mesh,
-                     const PlacementOptions& options, PlacementLog& placement)
-      : surface_(surface),
+  PlacementCollapser(const PlacementInput& input, const PlacementOptions& options,
+                     PlacementLog& placement)
+      : surface_(input.surface),
+        field_(input.attributes && !input.attributes->empty() ? input.attributes : nullptr),
         options_(options),
         placement_(placement),
-        merger_(surface, scratch_) {
-    gather_attributes(mesh);
-    bucket_.assign(surface.point_count(), kNone);
-    quadrics_.resize(surface.point_count());
+        merger_(input.surface, scratch_) {
+    gather_attributes(input.mesh);
+    bucket_.assign(surface_.point_count(), kNone);
+    quadrics_.resize(surface_.point_count());
     placement_.first.push_back(0);
   }
 
@@ -69,7 +71,30 @@ class PlacementCollapser {
                        kind == VertexKind::kCorner || kind == VertexKind::kLocked;
     const PlacementEdge edge{surface_.points[from].position, surface_.points[onto].position,
                              quadrics_[from], quadrics_[onto]};
-    return stays ? placement_at_end(edge) : place_edge(edge);
+    EdgePlacement result = stays ? placement_at_end(edge) : place_edge(edge);
+    if (field_)
+      for_edge_wedges(
+          surface_, from, onto, [&](std::uint32_t from_wedge, std::uint32_t onto_wedge) {
+            result.error +=
+                field_->cost(blend_of(from, onto, {from_wedge, onto_wedge}, result.position));
+          });
+    return result;
+  }
+
+  // How far along the edge the new place lies: so far do the attributes go.
+  [[nodiscard]] float parameter_of(std::uint32_t from, std::uint32_t onto,
+                                   const Vec3& position) const {
+    const Vec3 start = surface_.points[from].position;
+    const Vec3 edge = surface_.points[onto].position - start;
+    const float length = glm::dot(edge, edge);
+    return length > 0 ? std::clamp(glm::dot(position - start, edge) / length, 0.0f, 1.0f) : 1.0f;
+  }
+
+  [[nodiscard]] AttributeField::Blend blend_of(std::uint32_t from, std::uint32_t onto,
+                                               std::pair<std::uint32_t, std::uint32_t> wedges,
+                                               const Vec3& position) const {
+    return {wedges.first, wedges.second, parameter_of(from, onto, position),
+            position - surface_.points[from].position, position - surface_.points[onto].position};
   }
 
   [[nodiscard]] bool may_go(std::uint32_t from, std::uint32_t onto) {
@@ -108,11 +133,13 @@ class PlacementCollapser {
     });
     bucket_[point] = kNone;
     for (const Candidate& candidate : candidates_) {
-      if (test_placed_collapse(surface_, {point, candidate.target, candidate.placement.position,
-                                           merged_normal(point, candidate.target, candidate.placement.position)},
-                               options_.legality) != Refusal::kLegal)
+      if (test_placed_collapse(
+              surface_,
+              {point, candidate.target, candidate.placement.position,
+               merged_normal(point, candidate.target, candidate.placement.position)},
+              options_.legality) != Refusal::kLegal)
         continue;
-      if (!merger_.match_wedges(nullptr, point, candidate.target)) continue;
+      if (!merger_.match_wedges(field_, point, candidate.target)) continue;
       const std::uint32_t bucket = BucketQueue::bucket_of(candidate.cost);
       if (bucket > queue_.current()) {
         bucket_[point] = bucket;
@@ -134,6 +161,10 @@ class PlacementCollapser {
 
   void collapse(std::uint32_t from, std::uint32_t onto, const EdgePlacement& placement) {
     log_placement(from, onto, placement.position);
+    if (field_)
+      for (std::size_t i = 0; i < scratch_.moved_from.size(); ++i)
+        field_->merge(blend_of(from, onto, {scratch_.moved_from[i], scratch_.moved_onto[i]},
+                               placement.position));
     const std::size_t first_removed = log_.removed_faces.size();
     merger_.merge(from, onto, log_.removed_faces);
     const std::size_t removed = log_.removed_faces.size() - first_removed;
@@ -158,11 +189,7 @@ class PlacementCollapser {
 
   // Attributes at the new place are interpolated along the edge, wedge by wedge.
   void log_placement(std::uint32_t from, std::uint32_t onto, const Vec3& position) {
-    const Vec3 start = surface_.points[from].position;
-    const Vec3 edge = surface_.points[onto].position - start;
-    const float length = glm::dot(edge, edge);
-    const float t =
-        length > 0 ? std::clamp(glm::dot(position - start, edge) / length, 0.0f, 1.0f) : 1.0f;
+    const float t = parameter_of(from, onto, position);
     const Vec3 in_model = Vec3(DVec3(position) / surface_.scale + surface_.center);
     const std::uint32_t first = surface_.wedge.first_of(onto);
     for (std::uint32_t wedge = first; wedge < first + surface_.wedge.count_of(onto); ++wedge) {
@@ -209,6 +236,7 @@ class PlacementCollapser {
   };
 
   WorkingSurface& surface_;
+  AttributeField* field_;
   const PlacementOptions& options_;
   PlacementLog& placement_;
   MergeScratch scratch_;
@@ -224,9 +252,9 @@ class PlacementCollapser {
 
 }  // namespace
 
-CollapseLog collapse_with_placement(WorkingSurface& surface, const TriangleMesh& mesh,
-                                    const PlacementOptions& options, PlacementLog& placement) {
-  return PlacementCollapser(surface, mesh, options, placement).run();
+CollapseLog collapse_with_placement(const PlacementInput& input, const PlacementOptions& options,
+                                    PlacementLog& placement) {
+  return PlacementCollapser(input, options, placement).run();
 }
 
 }  // namespace varifold

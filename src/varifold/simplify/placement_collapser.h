@@ -5,11 +5,11 @@
 //   queue. Preserving the volume [LindstromTurk1998] was tried and changed nothing.
 #pragma once
 
-#include <cstdint>
 #include <varifold/base/progress.h>
 #include <varifold/simplify/collapse_rounds.h>
 #include <varifold/simplify/point_quadric.h>
 #include <varifold/simplify/working_surface.h>
+#include <cstdint>
 #include <vector>
 
 namespace varifold {
@@ -28,10 +28,16 @@ struct PlacementOptions {
   Progress progress;
 };
 
+/// What is collapsed, and the attributes that go along.
+struct PlacementInput {
+  WorkingSurface& surface;
+  const TriangleMesh& mesh;    ///< that the surface was built from
+  AttributeField* attributes;  ///< their part of the cost; null: geometry alone decides
+};
+
 /// Collapses one edge after the other until nothing legal is left or the target is reached; one
-/// thread. Positions of `surface` and attributes of its wedges change.
-[[nodiscard]] CollapseLog collapse_with_placement(WorkingSurface& surface,
-                                                  const TriangleMesh& mesh,
+/// thread. Positions of the surface and quadrics of the attributes change.
+[[nodiscard]] CollapseLog collapse_with_placement(const PlacementInput& input,
                                                   const PlacementOptions& options,
                                                   PlacementLog& placement);
 

@@ -1,8 +1,8 @@
 #include <varifold/base/parallel.h>
 #include <varifold/simplify/point_quadric.h>
 
-#include <cmath>
 #include <varifold/simplify/classify.h>
+#include <cmath>
 
 namespace varifold {
 
@@ -18,7 +18,8 @@ void add_constraints(WorkingSurface& surface, std::uint32_t point, const Quadric
   const Vec3 origin = surface.points[point].position;
   for (std::size_t i = 0; i < ring.size(); ++i) {
     if (ring[i].face == kNone) continue;
-    const std::uint32_t ends[2] = {ring[i].neighbor, ring[i + 1 == ring.size() ? 0 : i + 1].neighbor};
+    const std::uint32_t ends[2] = {ring[i].neighbor,
+                                   ring[i + 1 == ring.size() ? 0 : i + 1].neighbor};
     const Vec3 edges[2] = {surface.points[ends[0]].position - origin,
                            surface.points[ends[1]].position - origin};
     const Vec3 normal = normalize_or_zero(glm::cross(edges[0], edges[1]));

@@ -58,8 +58,7 @@ class RingOffsets {
 
 /// Face quadric, constraints and tie-break from gathered offsets.
 [[nodiscard]] PointQuadric point_quadric(WorkingSurface& surface, std::uint32_t point,
-                                         const QuadricOptions& options,
-                                         const RingOffsets& offsets);
+                                         const QuadricOptions& options, const RingOffsets& offsets);
 
 /// O(ring); O(ring^2) at feature points.
 [[nodiscard]] PointQuadric point_quadric(WorkingSurface& surface, std::uint32_t point,

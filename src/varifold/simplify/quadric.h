@@ -5,8 +5,8 @@
 //   planes of a fresh vertex pass through it, so it starts as a plain 3x3 matrix.
 #pragma once
 
-#include <algorithm>
 #include <varifold/base/math.h>
+#include <algorithm>
 
 namespace varifold {
 

@@ -1,8 +1,8 @@
 #include <varifold/simplify/ring_merge.h>
 
+#include <varifold/simplify/classify.h>
 #include <algorithm>
 #include <limits>
-#include <varifold/simplify/classify.h>
 
 namespace varifold {
 

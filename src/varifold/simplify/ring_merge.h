@@ -1,16 +1,16 @@
 // Editing the rings, and with them the wedges, for one collapse.
 #pragma once
 
-#include <cstdint>
 #include <varifold/simplify/attribute_field.h>
 #include <varifold/simplify/working_surface.h>
+#include <cstdint>
 #include <vector>
 
 namespace varifold {
 
 /// Memory that merges use again and again; one for each thread.
 struct MergeScratch {
-  std::vector<RingEntry> ring;  ///< the ring of the vanished point, as it was
+  std::vector<RingEntry> ring;                        ///< the ring of the vanished point, as it was
   std::vector<std::uint32_t> moved_from, moved_onto;  ///< wedges, as match_wedges() paired them
   std::vector<LinkEdge> edges, apex_edges;
   std::vector<RingEntry> ordered;

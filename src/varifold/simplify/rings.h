@@ -9,9 +9,9 @@
 // Eight entries fill a cache line; longer rings live in a pool and leave their address in the line.
 #pragma once
 
+#include <varifold/base/math.h>
 #include <cstdint>
 #include <span>
-#include <varifold/base/math.h>
 #include <vector>
 
 namespace varifold {

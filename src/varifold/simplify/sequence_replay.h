@@ -1,9 +1,9 @@
 // Doing the collapses of a sequence once more, one by one, and seeing what each changes.
 #pragma once
 
+#include <varifold/simplify/collapse_sequence.h>
 #include <cstdint>
 #include <span>
-#include <varifold/simplify/collapse_sequence.h>
 #include <vector>
 
 namespace varifold {
@@ -35,7 +35,7 @@ class SequenceReplay {
   const CollapseSequence& sequence_;
   std::uint32_t level_;
   std::vector<std::uint32_t> corners_;
-  std::vector<std::uint32_t> next_;         // per slot, the next slot of the same vertex
+  std::vector<std::uint32_t> next_;          // per slot, the next slot of the same vertex
   std::vector<std::uint32_t> first_, last_;  // per vertex
   std::vector<std::uint32_t> changed_, changed_end_, removed_;
 };

@@ -1,13 +1,13 @@
 #include <varifold/simplify/simplify.h>
 
-#include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <varifold/simplify/collapse_rounds.h>
 #include <varifold/simplify/deviation.h>
 #include <varifold/simplify/placement_collapser.h>
 #include <varifold/simplify/sequence_builder.h>
 #include <varifold/simplify/stop_report.h>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
 
 namespace varifold {
 
@@ -21,7 +21,8 @@ double seconds_since(Clock::time_point start) {
 
 std::string check_input(const TriangleMesh& mesh) {
   const std::size_t vertices = mesh.positions.size();
-  if (vertices >= kNone || mesh.indices.size() / 3 >= kNone / 3) return "mesh too large for 32 bits";
+  if (vertices >= kNone || mesh.indices.size() / 3 >= kNone / 3)
+    return "mesh too large for 32 bits";
   if (mesh.indices.size() % 3 != 0) return "the number of indices is no multiple of three";
   for (std::size_t i = 0; i < mesh.indices.size(); ++i)
     if (mesh.indices[i] >= vertices)
@@ -66,13 +67,24 @@ void cut_below(DetailedMesh& detailed, std::uint32_t level) {
   drop(sequence.vertices);
   drop(sequence.triangles);
   drop(sequence.error);
-  if (sequence.moves_vertices()) drop(sequence.first_placed);
+  if (sequence.moves_vertices()) {
+    drop(sequence.first_placed);
+    const std::uint32_t unused = sequence.first_placed.front();
+    for (std::uint32_t& first : sequence.first_placed) first -= unused;
+    const auto drop_unused = [&](auto& values) {
+      if (!values.empty()) values.erase(values.begin(), values.begin() + unused);
+    };
+    drop_unused(sequence.placed_vertex);
+    drop_unused(sequence.placed.positions);
+    drop_unused(sequence.placed.normals);
+    drop_unused(sequence.placed.texcoords);
+    drop_unused(sequence.placed.colors);
+  }
   for (std::uint32_t& l : sequence.triangle_level) l = l > level ? l - level : 0;
 }
 
-CollapseLog run_kept(WorkingSurface& surface, AttributeField& attributes, Collapser& collapser,
+CollapseLog run_kept(WorkingSurface& surface, Collapser& collapser,
                      const SimplifyOptions& options) {
-  if (!attributes.empty()) add_faces_to_attributes(surface, attributes, options.threads);
   RoundOptions rounds;
   rounds.target_faces = options.target_triangles;
   rounds.threads = options.threads;
@@ -80,13 +92,13 @@ CollapseLog run_kept(WorkingSurface& surface, AttributeField& attributes, Collap
   return run_rounds(surface, collapser, rounds);
 }
 
-CollapseLog run_placed(WorkingSurface& surface, const TriangleMesh& mesh,
-                       const SimplifyOptions& options, PlacementLog& placement) {
+CollapseLog run_placed(const PlacementInput& input, const SimplifyOptions& options,
+                       PlacementLog& placement) {
   PlacementOptions placement_options;
   placement_options.legality = options.legality;
   placement_options.target_faces = options.target_triangles;
   placement_options.progress = options.progress;
-  return collapse_with_placement(surface, mesh, placement_options, placement);
+  return collapse_with_placement(input, placement_options, placement);
 }
 
 }  // namespace
@@ -105,14 +117,15 @@ Result<Simplification> simplify(const TriangleMesh& mesh, const SimplifyOptions&
   const std::uint32_t all_faces = surface.face_count;
   const bool placed = options.placement == Placement::kOptimal;
   AttributeField attributes;
-  if (surface_options.with_wedges && !placed)
+  if (surface_options.with_wedges)
     attributes = AttributeField(mesh, surface.wedge.vertex_of, options.attributes);
+  if (!attributes.empty()) add_faces_to_attributes(surface, attributes, options.threads);
   CollapserOptions collapser_options;
   collapser_options.legality = options.legality;
   Collapser collapser(surface, &attributes, collapser_options);
   PlacementLog placement;
-  const CollapseLog log = placed ? run_placed(surface, mesh, options, placement)
-                                 : run_kept(surface, attributes, collapser, options);
+  const CollapseLog log = placed ? run_placed({surface, mesh, &attributes}, options, placement)
+                                 : run_kept(surface, collapser, options);
   if (log.cancelled) return fail(ErrorKind::kCancelled, "cancelled while simplifying");
   result.scratch_bytes = surface.bytes() + attributes.bytes() + log.queue_bytes;
 

@@ -1,16 +1,16 @@
 // From a triangle mesh to its collapse sequence.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <limits>
-#include <string>
 #include <varifold/base/progress.h>
 #include <varifold/base/result.h>
 #include <varifold/simplify/attribute_field.h>
 #include <varifold/simplify/collapse_sequence.h>
 #include <varifold/simplify/legality.h>
 #include <varifold/simplify/working_surface.h>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <string>
 #include <vector>
 
 namespace varifold {

@@ -34,7 +34,8 @@ std::string advise(const WorkingSurface& surface, const StopReport& report) {
     return "most vertices that are left lie on open borders: if the mesh should be closed, weld it "
            "first (--weld TOLERANCE)";
   if (2 * (left(VertexKind::kLocked) + left(VertexKind::kNonManifold)) > all)
-    return "most vertices that are left are non-manifold: repair the mesh, or weld it with a smaller "
+    return "most vertices that are left are non-manifold: repair the mesh, or weld it with a "
+           "smaller "
            "tolerance";
   return "the parts that are left are as small as their topology allows (many components or "
          "handles)";
@@ -46,7 +47,8 @@ StopReport report_stop(WorkingSurface& surface, Collapser& collapser,
                        const SimplifyOptions& options, bool all_done) {
   StopReport report;
   report.triangles = surface.face_count;
-  const bool reached = options.target_triangles > 0 && surface.face_count <= options.target_triangles;
+  const bool reached =
+      options.target_triangles > 0 && surface.face_count <= options.target_triangles;
   if (reached || !all_done) {
     report.reason = StopReason::kTargetReached;
     return report;
@@ -58,8 +60,8 @@ StopReport report_stop(WorkingSurface& surface, Collapser& collapser,
     ++report.left_by_kind[static_cast<int>(state.kind)];
     ++report.refusals[static_cast<int>(collapser.refusal_of(scratch, p))];
   }
-  const auto faces = static_cast<std::uint32_t>(
-      std::count(surface.is_face.begin(), surface.is_face.end(), true));
+  const auto faces =
+      static_cast<std::uint32_t>(std::count(surface.is_face.begin(), surface.is_face.end(), true));
   const bool small = surface.face_count <= kSmallBase || surface.face_count <= kSmallPart * faces;
   const bool wanted = options.target_triangles == 0 && small;
   report.reason = wanted ? StopReason::kExhausted : StopReason::kStuck;

@@ -1,7 +1,7 @@
 #include <varifold/simplify/wedge_tables.h>
 
-#include <algorithm>
 #include <varifold/simplify/working_surface.h>
+#include <algorithm>
 
 namespace varifold {
 
@@ -94,8 +94,8 @@ class Maker {
         out_.group_of[w] = w;
         const std::size_t end = std::min<std::size_t>(w, out_.first[p] + kMaxSearched);
         for (std::uint32_t other = out_.first[p]; other < end; ++other) {
-          if (mesh_.has_texcoords() && mesh_.texcoords[out_.vertex_of[w]] !=
-                                           mesh_.texcoords[out_.vertex_of[other]])
+          if (mesh_.has_texcoords() &&
+              mesh_.texcoords[out_.vertex_of[w]] != mesh_.texcoords[out_.vertex_of[other]])
             continue;
           out_.group_of[w] = out_.group_of[other];
           break;

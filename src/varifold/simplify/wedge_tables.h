@@ -1,9 +1,9 @@
 // Wedges: the vertices of the input, one for each set of attributes at a point.
 #pragma once
 
-#include <cstdint>
 #include <varifold/base/math.h>
 #include <varifold/mesh/triangle_mesh.h>
+#include <cstdint>
 #include <vector>
 
 namespace varifold {

@@ -1,14 +1,14 @@
 #include <varifold/base/parallel.h>
 #include <varifold/simplify/working_surface.h>
 
-#include <algorithm>
-#include <atomic>
-#include <cstring>
-#include <tuple>
 #include <varifold/mesh/weld.h>
 #include <varifold/simplify/classify.h>
 #include <varifold/simplify/morton.h>
 #include <varifold/simplify/packed_normal.h>
+#include <algorithm>
+#include <atomic>
+#include <cstring>
+#include <tuple>
 
 namespace varifold {
 
@@ -36,16 +36,15 @@ void WorkingSurface::set_ring(std::uint32_t point, std::span<const RingEntry> en
 }
 
 std::uint32_t WorkingSurface::live_points() const {
-  return static_cast<std::uint32_t>(std::count_if(points.begin(), points.end(), [](const auto& p) {
-    return !(p.flags & PointState::kDead);
-  }));
+  return static_cast<std::uint32_t>(std::count_if(
+      points.begin(), points.end(), [](const auto& p) { return !(p.flags & PointState::kDead); }));
 }
 
 std::size_t WorkingSurface::bytes() const {
-  std::size_t sum = points.capacity() * sizeof(PointState) + lines.capacity() * sizeof(RingLine) +
-                    (point_of_vertex.capacity() + first_vertex_of_point.capacity()) *
-                        sizeof(std::uint32_t) +
-                    is_face.capacity() / 8;
+  std::size_t sum =
+      points.capacity() * sizeof(PointState) + lines.capacity() * sizeof(RingLine) +
+      (point_of_vertex.capacity() + first_vertex_of_point.capacity()) * sizeof(std::uint32_t) +
+      is_face.capacity() / 8;
   for (const RingPool& pool : pools) sum += pool.bytes();
   sum += wedge.bytes();
   return sum;
@@ -55,7 +54,7 @@ namespace {
 
 // Points wider than this would overflow the ring size; the fan around them is left alone.
 constexpr std::uint32_t kMaxRing = 60000;
-constexpr std::uint32_t kMaxCells = 64;
+constexpr std::uint32_t kMaxCells = 512;
 
 struct Builder {
   const TriangleMesh& mesh;

@@ -5,15 +5,15 @@
 // beside them where the mesh has seams or attributes: corners name wedges, rings name points.
 #pragma once
 
-#include <algorithm>
-#include <cstdint>
-#include <span>
 #include <varifold/base/large_vector.h>
 #include <varifold/base/math.h>
 #include <varifold/mesh/triangle_mesh.h>
 #include <varifold/simplify/rings.h>
 #include <varifold/simplify/vertex_kind.h>
 #include <varifold/simplify/wedge_tables.h>
+#include <algorithm>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 namespace varifold {
@@ -21,10 +21,10 @@ namespace varifold {
 /// State of a point; half a cache line.
 struct alignas(32) PointState {
   Vec3 position{0};
-  float error = 0;                ///< estimate of how far the surface around has moved
-  std::uint32_t target = kNone;   ///< the best collapse found last
-  float step = 0;                 ///< estimate of the distance that it would move the surface
-  std::uint32_t normal = 0;       ///< of the input around the point (packed_normal.h)
+  float error = 0;               ///< estimate of how far the surface around has moved
+  std::uint32_t target = kNone;  ///< the best collapse found last
+  float step = 0;                ///< estimate of the distance that it would move the surface
+  std::uint32_t normal = 0;      ///< of the input around the point (packed_normal.h)
   std::uint16_t ring_size = 0;
   VertexKind kind = VertexKind::kManifold;
   std::uint8_t flags = 0;
@@ -58,7 +58,7 @@ class WorkingSurface {
   std::vector<std::uint32_t> point_of_vertex;        ///< kNone for unused vertices
   std::vector<std::uint32_t> first_vertex_of_point;  ///< the first vertex of the input there
   std::vector<bool> is_face;                         ///< per triangle of the input
-  std::uint32_t face_count = 0;               ///< live faces
+  std::uint32_t face_count = 0;                      ///< live faces
   DVec3 center{0};
   double scale = 1;  ///< points are (position - center) * scale
 

@@ -1,6 +1,6 @@
 // Normal cones: the set of normals of a piece of surface, to tell when all of it looks away.
 //
-// Based on: [Hoppe 1997] section 4, surface orientation.
+// Based on: [Hoppe1997] section 4, surface orientation.
 // Differs: the paper treats the region as a point, which is unsafe close up; here the region's
 // bounding sphere widens the cone by the angle under which the eye sees its radius.
 #pragma once

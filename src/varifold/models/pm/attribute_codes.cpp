@@ -192,6 +192,7 @@ bool AttributeCoder::decode(const Codes& codes, TriangleMesh& attributes,
 }
 
 void AttributeCoder::resize(TriangleMesh& attributes, std::size_t count) const {
+  if (attributes.positions.size() == count) return;
   attributes.positions.resize(count);
   if (format_.normals) attributes.normals.resize(count);
   if (format_.texcoords) attributes.texcoords.resize(count);
@@ -242,6 +243,22 @@ void AttributeCoder::mean_of_normals(std::span<const std::uint32_t> ring,
   codes[first + 1] = mean[1];
 }
 
+namespace {
+
+template <std::size_t kWidth>
+void mean_of_codes(std::span<const std::uint32_t> ring, const std::uint32_t* table,
+                   std::size_t stride, std::uint32_t* mean) {
+  const std::uint64_t half = ring.size() / 2;
+  std::array<std::uint64_t, kWidth> sum;
+  sum.fill(half);
+  for (const std::uint32_t v : ring)
+    for (std::size_t i = 0; i < kWidth; ++i) sum[i] += table[v * stride + i];
+  for (std::size_t i = 0; i < kWidth; ++i)
+    mean[i] = static_cast<std::uint32_t>(sum[i] / ring.size());
+}
+
+}  // namespace
+
 void AttributeCoder::predict_mean(Field field, std::span<const std::uint32_t> ring,
                                   std::uint32_t near, const std::vector<std::uint32_t>& table,
                                   Prediction& prediction) const {
@@ -255,16 +272,16 @@ void AttributeCoder::predict_mean(Field field, std::span<const std::uint32_t> ri
     case Kind::kOctahedral:
       mean_of_normals(ring, table, prediction.codes);
       break;
-    case Kind::kWhole: {
-      const std::uint64_t half = ring.size() / 2;
-      std::array<std::uint64_t, 4> sum{half, half, half, half};
-      for (const std::uint32_t v : ring) {
-        const std::uint32_t* from = table.data() + std::size_t{v} * channel_count_ + first;
-        for (std::uint32_t i = 0; i < end - first; ++i) sum[i] += from[i];
-      }
-      for (std::uint32_t i = 0; i < end - first; ++i)
-        prediction.codes[first + i] = static_cast<std::uint32_t>(sum[i] / ring.size());
-    }
+    case Kind::kWhole:
+      if (end - first == 3)
+        mean_of_codes<3>(ring, table.data() + first, channel_count_,
+                         prediction.codes.data() + first);
+      else if (end - first == 2)
+        mean_of_codes<2>(ring, table.data() + first, channel_count_,
+                         prediction.codes.data() + first);
+      else
+        mean_of_codes<4>(ring, table.data() + first, channel_count_,
+                         prediction.codes.data() + first);
   }
   choose_models(field, table.data() + std::size_t{near} * channel_count_, 0, prediction);
 }

@@ -1,7 +1,7 @@
 // Vertex attributes as whole numbers, their prediction from neighbours, and what remains.
 //
 // Based on: [Hoppe1996] section 5 (differences to the neighbourhood); [Cigolle2014] (octahedral
-//   normals); [Lindstrom2006] section 4 (floats as integers of the same order).
+//   normals); [LindstromIsenburg2006] section 4 (floats as integers of the same order).
 // Differs: the prediction is the mean of the new vertex's ring, and the scale of what remains is
 //   guessed from the distance between the prediction and the vertex that is split.
 #pragma once

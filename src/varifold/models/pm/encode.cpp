@@ -191,9 +191,7 @@ class ProgressiveMeshEncoder {
       pm::SplitWedge wedge{data_.target[first + i], static_cast<std::uint32_t>(record.moved.size()),
                            0, false, false};
       for (std::size_t s = begin; s < slot_; ++s) mark(s, 1);
-      free_.clear();
-      state_.surface.free_slots(record, wedge.target, free_);
-      for (const std::uint32_t slot : free_)
+      for (const std::uint32_t slot : state_.surface.free_slots(record, wedge.target, free_))
         if (takes_[slot] != 0) record.moved.push_back(slot);
       for (; begin < slot_; ++begin) mark(begin, 0);
       wedge.end_moved = static_cast<std::uint32_t>(record.moved.size());

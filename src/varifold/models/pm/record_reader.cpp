@@ -60,13 +60,15 @@ const char* RecordReader::read_wedges(std::uint32_t count, bool with_flags) {
 }
 
 const char* RecordReader::read_mask(SplitWedge& wedge) {
-  scratch_.clear();
-  state_->surface.free_slots(*record_, wedge.target, scratch_);
+  const auto slots = state_->surface.free_slots(*record_, wedge.target, scratch_);
   wedge.first_moved = static_cast<std::uint32_t>(record_->moved.size());
-  for (std::size_t i = 0; i < scratch_.size() && !bits_->exhausted(); i += 32) {
-    const auto count = static_cast<unsigned>(std::min<std::size_t>(32, scratch_.size() - i));
-    for (std::uint32_t mask = bits_->bits(count); mask != 0; mask &= mask - 1)
-      record_->moved.push_back(scratch_[i + static_cast<unsigned>(std::countr_zero(mask))]);
+  for (std::size_t i = 0; i < slots.size() && !bits_->exhausted(); i += 32) {
+    const auto count = static_cast<unsigned>(std::min<std::size_t>(32, slots.size() - i));
+    for (std::uint32_t mask = bits_->bits(count); mask != 0; mask &= mask - 1) {
+      const std::uint32_t slot = slots[i + static_cast<unsigned>(std::countr_zero(mask))];
+      state_->surface.prefetch(slot);
+      record_->moved.push_back(slot);
+    }
   }
   wedge.end_moved = static_cast<std::uint32_t>(record_->moved.size());
   return wedge.end_moved <= kMaxSlots ? nullptr : "too many corners move in one split";
@@ -142,15 +144,17 @@ const char* RecordReader::read_placed() {
   if (bits_->bits(1) == 0) {
     predict_placed_vertices(*record_, vertices);
   } else {
+    const std::uint32_t all = state_->surface.vertex_count();
     const std::uint32_t count = read_number(CodeModels::kPlacedCount);
-    if (count > kMaxPlaced) return "too many vertices move in one split";
-    for (std::uint32_t i = 0; i < count && !bits_->exhausted(); ++i) {
-      const std::uint32_t vertex = bits_->uniform(state_->surface.vertex_count());
-      if (std::find(vertices.begin(), vertices.end(), vertex) != vertices.end())
-        return "a vertex moves twice in one split";
-      vertices.push_back(vertex);
-    }
+    if (count > all) return "more vertices move in one split than there are";
+    for (std::uint32_t i = 0; i < count && !bits_->exhausted(); ++i)
+      vertices.push_back(bits_->uniform(all));
+    scratch_ = vertices;
+    std::sort(scratch_.begin(), scratch_.end());
+    if (std::adjacent_find(scratch_.begin(), scratch_.end()) != scratch_.end())
+      return "a vertex moves twice in one split";
   }
+  if (bits_->exhausted()) return nullptr;
   for (const std::uint32_t vertex : vertices) {
     const Codes& new_codes = record_->codes[split_off(*record_, vertex)];
     const Prediction prediction = state_->coder.predict_placed(state_->codes_of(vertex), new_codes);

@@ -111,10 +111,9 @@ void RecordWriter::write_mask(const SplitWedge& wedge) {
     earlier.wedges.push_back(other);
   }
   earlier.moved = record_->moved;
-  scratch_.clear();
-  state_->surface.free_slots(earlier, wedge.target, scratch_);
+  const auto slots = state_->surface.free_slots(earlier, wedge.target, scratch_);
   std::uint32_t next = wedge.first_moved;
-  for (const std::uint32_t slot : scratch_) {
+  for (const std::uint32_t slot : slots) {
     const bool moves = next < wedge.end_moved && record_->moved[next] == slot;
     bits_->bits(moves ? 1 : 0, 1);
     if (moves) ++next;

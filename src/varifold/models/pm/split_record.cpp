@@ -1,6 +1,7 @@
 #include <varifold/models/pm/split_record.h>
 
 #include <algorithm>
+#include <bit>
 
 namespace varifold::pm {
 
@@ -17,9 +18,7 @@ void SplitRecord::clear() {
 
 void SplitSurface::reserve(std::size_t vertices, std::size_t triangles) {
   corners_.reserve(3 * triangles);
-  next_.reserve(3 * triangles);
-  first_.reserve(vertices);
-  last_.reserve(vertices);
+  slots_.reserve(vertices);
 }
 
 void SplitSurface::add_block(std::uint32_t range, std::uint32_t capacity) {
@@ -31,58 +30,47 @@ void SplitSurface::add_block(std::uint32_t range, std::uint32_t capacity) {
     blocks.push_back({first, 0, capacity});
   const std::size_t triangles = std::size_t{first} + capacity;
   corners_.resize(3 * triangles, 0);
-  next_.resize(3 * triangles, kNone);
   if (blocks_.size() > 1) range_of_triangle_.resize(triangles, range);
-}
-
-void SplitSurface::add_vertices(std::uint32_t count) {
-  first_.resize(first_.size() + count, kNone);
-  last_.resize(last_.size() + count, kNone);
 }
 
 std::uint32_t SplitSurface::add_triangle(const NewTriangle& triangle) {
   std::vector<Block>& blocks = blocks_[triangle.range];
   if (blocks.empty() || blocks.back().count == blocks.back().capacity) {
+    // Doubled, so that each range has few blocks.
     std::uint32_t present = 0;
     for (const Block& block : blocks) present += block.count;
-    // One range alone grows in place; several double, so that each has few blocks.
-    add_block(triangle.range, blocks_.size() == 1 ? 1 : std::max(64u, present));
+    add_block(triangle.range, std::max(64u, present));
   }
   Block& block = blocks.back();
   const std::uint32_t id = block.first + block.count++;
-  for (std::uint32_t c = 0; c < 3; ++c) append_slot(triangle.corners[c], 3 * id + c);
+  for (std::uint32_t c = 0; c < 3; ++c) {
+    corners_[3 * id + c] = triangle.corners[c];
+    slots_.append(triangle.corners[c], 3 * id + c);
+  }
   ++triangle_count_;
   return id;
 }
 
-void SplitSurface::append_slot(std::uint32_t vertex, std::uint32_t slot) {
-  corners_[slot] = vertex;
-  next_[slot] = kNone;
-  if (first_[vertex] == kNone)
-    first_[vertex] = slot;
-  else
-    next_[last_[vertex]] = slot;
-  last_[vertex] = slot;
-}
-
-void SplitSurface::free_slots(const SplitRecord& record, std::uint32_t vertex,
-                              std::vector<std::uint32_t>& slots) const {
-  const std::size_t begin = slots.size();
-  for (std::uint32_t slot = first_[vertex]; slot != kNone; slot = next_[slot])
-    slots.push_back(slot);
+std::span<const std::uint32_t> SplitSurface::free_slots(const SplitRecord& record,
+                                                        std::uint32_t vertex,
+                                                        std::vector<std::uint32_t>& scratch) const {
+  std::span<const std::uint32_t> free = slots_.list(vertex);
   for (const SplitWedge& wedge : record.wedges) {
     if (wedge.target != vertex) continue;
     // What an earlier wedge takes stands in the same order as the list.
+    scratch.assign(free.begin(), free.end());
     std::uint32_t taken = wedge.first_moved;
-    std::size_t kept = begin;
-    for (std::size_t i = begin; i < slots.size(); ++i) {
-      if (taken < wedge.end_moved && slots[i] == record.moved[taken])
+    std::size_t kept = 0;
+    for (const std::uint32_t slot : scratch) {
+      if (taken < wedge.end_moved && slot == record.moved[taken])
         ++taken;
       else
-        slots[kept++] = slots[i];
+        scratch[kept++] = slot;
     }
-    slots.resize(kept);
+    scratch.resize(kept);
+    free = scratch;
   }
+  return free;
 }
 
 bool SplitSurface::predict_triangles(const SplitRecord& record, const SplitWedge& wedge,
@@ -93,26 +81,30 @@ bool SplitSurface::predict_triangles(const SplitRecord& record, const SplitWedge
   if (!wedge.leads && !wedge.closes) return true;
   if (count == 0 || count > kMaxFan) return false;
 
-  // The first spoke begins a triangle and ends none; the last one ends a triangle only.
-  std::array<std::uint32_t, kMaxFan> starts, ends;
+  // The first spoke begins a triangle and ends none; the last one ends a triangle only. Fans are
+  // short: each pair is looked at, without branches.
+  std::array<std::uint32_t, kMaxFan> ends;
+  for (std::uint32_t i = 0; i < count; ++i) ends[i] = corner_before(moved[i]);
+  std::uint64_t lone_starts = 0, met_ends = 0;
   for (std::uint32_t i = 0; i < count; ++i) {
-    starts[i] = corner_after(moved[i]);
-    ends[i] = corner_before(moved[i]);
+    const std::uint32_t start = corner_after(moved[i]);
+    std::uint64_t met = 0;
+    for (std::uint32_t j = 0; j < count; ++j)
+      met |= static_cast<std::uint64_t>(ends[j] == start) << j;
+    lone_starts |= static_cast<std::uint64_t>(met == 0) << i;
+    met_ends |= met;
   }
-  const auto lone = [&](const auto& these, const auto& those) {
-    for (std::uint32_t i = 0; i < count; ++i)
-      if (std::find(those.begin(), those.begin() + count, these[i]) == those.begin() + count)
-        return i;
-    return kNone;
-  };
   if (wedge.leads) {
-    const std::uint32_t i = lone(starts, ends);
-    if (i == kNone) return false;
-    triangles.push_back({{vertex, wedge.target, starts[i]}, range_of(moved[i] / 3)});
+    const auto i = static_cast<std::uint32_t>(std::countr_zero(lone_starts));
+    if (i >= count) return false;
+    const std::uint32_t start = corner_after(moved[i]);
+    slots_.prefetch(start);
+    triangles.push_back({{vertex, wedge.target, start}, range_of(moved[i] / 3)});
   }
   if (wedge.closes) {
-    const std::uint32_t i = lone(ends, starts);
-    if (i == kNone) return false;
+    const auto i = static_cast<std::uint32_t>(std::countr_one(met_ends));
+    if (i >= count) return false;
+    slots_.prefetch(ends[i]);
     triangles.push_back({{vertex, ends[i], wedge.target}, range_of(moved[i] / 3)});
   }
   return true;
@@ -121,46 +113,28 @@ bool SplitSurface::predict_triangles(const SplitRecord& record, const SplitWedge
 void SplitSurface::ring_of(const SplitRecord& record, std::uint32_t wedge_index,
                            std::vector<std::uint32_t>& ring) const {
   const SplitWedge& wedge = record.wedges[wedge_index];
-  for (std::uint32_t i = wedge.first_moved; i < wedge.end_moved; ++i) {
+  for (std::uint32_t i = wedge.first_moved; i < wedge.end_moved; ++i)
     ring.push_back(corner_after(record.moved[i]));
-    ring.push_back(corner_before(record.moved[i]));
-  }
   const std::uint32_t vertex = vertex_count() + wedge_index;
   for (const NewTriangle& triangle : record.triangles) {
-    const auto& corners = triangle.corners;
-    if (std::find(corners.begin(), corners.end(), vertex) == corners.end()) continue;
-    for (const std::uint32_t corner : corners)
-      if (corner < vertex_count()) ring.push_back(corner);
-  }
-}
-
-void SplitSurface::move_slots(const SplitRecord& record, const SplitWedge& wedge,
-                              std::uint32_t vertex) {
-  std::uint32_t moved = wedge.first_moved;
-  std::uint32_t last_kept = kNone;
-  const std::uint32_t target = wedge.target;
-  for (std::uint32_t slot = first_[target]; slot != kNone && moved < wedge.end_moved;) {
-    const std::uint32_t next = next_[slot];
-    if (slot != record.moved[moved]) {
-      last_kept = slot;
-    } else {
-      ++moved;
-      if (last_kept == kNone)
-        first_[target] = next;
-      else
-        next_[last_kept] = next;
-      if (last_[target] == slot) last_[target] = last_kept;
-      append_slot(vertex, slot);
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (triangle.corners[c] != vertex) continue;
+      const std::uint32_t next = triangle.corners[c == 2 ? 0 : c + 1];
+      if (next < vertex_count()) ring.push_back(next);
     }
-    slot = next;
   }
 }
 
 void SplitSurface::apply(const SplitRecord& record) {
-  const std::uint32_t old_count = vertex_count();
-  const auto wedges = static_cast<std::uint32_t>(record.wedges.size());
-  add_vertices(wedges);
-  for (std::uint32_t i = 0; i < wedges; ++i) move_slots(record, record.wedges[i], old_count + i);
+  std::uint32_t vertex = vertex_count();
+  add_vertices(static_cast<std::uint32_t>(record.wedges.size()));
+  for (const SplitWedge& wedge : record.wedges) {
+    const std::span<const std::uint32_t> moved(record.moved.data() + wedge.first_moved,
+                                               record.moved.data() + wedge.end_moved);
+    slots_.move(wedge.target, moved, vertex);
+    for (const std::uint32_t slot : moved) corners_[slot] = vertex;
+    ++vertex;
+  }
   added_.clear();
   for (const NewTriangle& triangle : record.triangles) added_.push_back(add_triangle(triangle));
 }

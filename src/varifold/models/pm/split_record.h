@@ -6,6 +6,7 @@
 #pragma once
 
 #include <varifold/models/pm/attribute_codes.h>
+#include <varifold/models/pm/slot_lists.h>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -66,9 +67,7 @@ class SplitSurface {
   /// Room without a change of layout.
   void reserve(std::size_t vertices, std::size_t triangles);
 
-  [[nodiscard]] std::uint32_t vertex_count() const {
-    return static_cast<std::uint32_t>(first_.size());
-  }
+  [[nodiscard]] std::uint32_t vertex_count() const { return slots_.list_count(); }
   [[nodiscard]] std::uint32_t triangle_count() const { return triangle_count_; }
   [[nodiscard]] std::uint32_t range_count() const {
     return static_cast<std::uint32_t>(blocks_.size());
@@ -76,25 +75,31 @@ class SplitSurface {
   /// The index buffer; places of a block that no triangle has yet hold 0.
   [[nodiscard]] const std::vector<std::uint32_t>& corners() const { return corners_; }
 
+  [[nodiscard]] std::vector<std::uint32_t> take_corners() { return std::move(corners_); }
+
   /// Where triangles of a range lie, in the order of their arrival.
   struct Block {
     std::uint32_t first = 0, count = 0, capacity = 0;
   };
   [[nodiscard]] std::span<const Block> blocks(std::uint32_t range) const { return blocks_[range]; }
 
-  void add_vertices(std::uint32_t count);
+  /// Begins to load the triangle of a slot.
+  void prefetch(std::uint32_t slot) const { __builtin_prefetch(&corners_[slot]); }
+
+  void add_vertices(std::uint32_t count) { slots_.add_lists(count); }
   /// Corners must be vertices. Returns the number of the triangle.
   std::uint32_t add_triangle(const NewTriangle& triangle);
-  /// The slots of `vertex` that no earlier wedge of the record takes, appended to `slots`.
-  void free_slots(const SplitRecord& record, std::uint32_t vertex,
-                  std::vector<std::uint32_t>& slots) const;
+  /// The slots of `vertex` that no earlier wedge of the record takes, in the order of their
+  /// arrival. The result lies in the surface or in `scratch`.
+  [[nodiscard]] std::span<const std::uint32_t> free_slots(
+      const SplitRecord& record, std::uint32_t vertex, std::vector<std::uint32_t>& scratch) const;
   /// Appends the triangles that the wedge's flags promise, or returns false where its moved slots
   /// do not tell them. `vertex` is the new one.
   [[nodiscard]] bool predict_triangles(const SplitRecord& record, const SplitWedge& wedge,
                                        std::uint32_t vertex,
                                        std::vector<NewTriangle>& triangles) const;
-  /// The other corners of the triangles that a wedge will have, appended to `ring`, each as often
-  /// as it occurs; `wedge_index` counts from vertex_count().
+  /// The next corner of every triangle that new vertex `wedge_index` will have, appended to `ring`:
+  /// around an inner vertex, all of its neighbours.
   void ring_of(const SplitRecord& record, std::uint32_t wedge_index,
                std::vector<std::uint32_t>& ring) const;
   /// Does what the record says. Slots and targets must be as free_slots() gave them.
@@ -107,8 +112,6 @@ class SplitSurface {
   static constexpr std::uint32_t kMaxFan = 64;
 
   void add_block(std::uint32_t range, std::uint32_t capacity);
-  void append_slot(std::uint32_t vertex, std::uint32_t slot);
-  void move_slots(const SplitRecord& record, const SplitWedge& wedge, std::uint32_t vertex);
   [[nodiscard]] std::uint32_t corner_after(std::uint32_t slot) const {
     return corners_[slot % 3 == 2 ? slot - 2 : slot + 1];
   }
@@ -121,8 +124,7 @@ class SplitSurface {
 
   std::uint32_t triangle_count_ = 0;
   std::vector<std::uint32_t> corners_;            // per slot
-  std::vector<std::uint32_t> next_;               // per slot, the next slot of the same vertex
-  std::vector<std::uint32_t> first_, last_;       // per vertex
+  SlotLists slots_;                               // per vertex
   std::vector<std::uint32_t> range_of_triangle_;  // only where there are several
   std::vector<std::vector<Block>> blocks_;        // per range
   std::vector<std::uint32_t> added_;

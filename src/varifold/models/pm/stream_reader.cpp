@@ -12,6 +12,8 @@ namespace {
 constexpr std::uint32_t kLastSlot = ProgressiveMeshData::kLastSlot;
 constexpr std::uint32_t kNoSlot = ProgressiveMeshData::kNoSlot;
 
+constexpr std::size_t kLongRecord = 512;  // bytes
+
 Error fault_at(std::size_t byte, const std::string& what) {
   return {ErrorKind::kInvalidInput, "byte " + std::to_string(byte) + ": " + what};
 }
@@ -133,14 +135,7 @@ Result<void> ProgressiveStreamReader::read_base(std::span<const std::byte> secti
   if (least_bits > section_bits || (header_.base_triangles > 0 && header_.base_vertices < 3))
     return tl::unexpected<Error>(fault_at(offset_, "the base has no room for its triangles"));
 
-  // A split takes a byte at least; do not trust the header with more.
-  const std::size_t later = pending_.size();
-  const std::size_t vertices =
-      std::min<std::size_t>(header_.vertices, header_.base_vertices + later);
-  state_.surface.reserve(
-      vertices, std::min<std::size_t>(header_.triangles, header_.base_triangles + 2 * later));
-  state_.table.reserve(vertices * state_.coder.channel_count());
-
+  reserve(pending_.size());
   BitReader bits(section);
   const bool good = read_base_vertices(bits, header_.base_vertices, state_, data_.mesh) &&
                     read_base_triangles(bits, header_, state_.surface);
@@ -166,6 +161,23 @@ Result<void> ProgressiveStreamReader::read_base(std::span<const std::byte> secti
   return {};
 }
 
+// Room for what may stand in so many bytes: a split takes one at least; the header has no say in
+// more than that.
+void ProgressiveStreamReader::reserve(std::size_t bytes) {
+  const std::size_t splits = std::min<std::size_t>(header_.levels, bytes);
+  const std::size_t vertices =
+      std::min<std::size_t>(header_.vertices, header_.base_vertices + bytes);
+  const std::size_t triangles =
+      std::min<std::size_t>(header_.triangles, header_.base_triangles + 2 * bytes);
+  state_.surface.reserve(vertices, triangles);
+  state_.table.reserve(vertices * state_.coder.channel_count());
+  data_.mesh.positions.reserve(vertices + 1);
+  data_.target.reserve(vertices);
+  data_.slots.reserve(4 * vertices);
+  data_.splits.reserve(splits);
+  data_.error.reserve(splits + 1);
+}
+
 Result<void> ProgressiveStreamReader::read_splits() {
   const std::uint32_t last = std::min(header_.levels, last_level_);
   BitReader bits(pending_, first_bit_);
@@ -182,7 +194,7 @@ Result<void> ProgressiveStreamReader::read_splits() {
   offset_ += position / 8;
   first_bit_ = position % 8;
   // Long records are not tried again for every byte that arrives.
-  try_at_ = pending_.size() + pending_.size() / 8 + 1;
+  try_at_ = pending_.size() + (pending_.size() < kLongRecord ? 1 : pending_.size() / 8);
   if (level() == header_.levels) return check_end();
   if (level() >= last_level_) pending_.clear();
   return {};
@@ -330,7 +342,8 @@ Result<ProgressiveMesh> ProgressiveStreamReader::finish() && {
 // The index buffer as it is at level 0, with every later triangle as it appears.
 void ProgressiveStreamReader::undo_splits() {
   std::vector<std::uint32_t>& indices = data_.mesh.indices;
-  indices = state_.surface.corners();
+  indices = state_.surface.take_corners();
+  if (header_.ranges.size() == 1) indices.resize(3 * std::size_t{triangle_count()});
   std::uint32_t vertex = vertex_count();
   std::size_t slot = data_.slots.size();
   for (std::size_t k = data_.splits.size(); k-- > 0;) {

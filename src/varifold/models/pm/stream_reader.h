@@ -24,7 +24,8 @@ class ProgressiveStreamReader {
       std::uint32_t last_level = std::numeric_limits<std::uint32_t>::max())
       : last_level_(last_level) {}
 
-  /// The next bytes of the stream; refines as far as they allow. kInvalidInput with the offset of
+  /// The next bytes of the stream; refines as far as they allow (a split of more than 512 bytes may
+  /// wait for more bytes, or for finish()). kInvalidInput with the offset of
   /// the fault; then the mesh stays as it is, and every later push fails in the same way.
   Result<void> push(std::span<const std::byte> bytes);
 
@@ -57,6 +58,7 @@ class ProgressiveStreamReader {
   [[nodiscard]] std::uint64_t section_size() const;
   Result<void> read_section(std::span<const std::byte> section);
   Result<void> read_base(std::span<const std::byte> section);
+  void reserve(std::size_t bytes);
   Result<void> read_splits();
   Result<void> check_end();
   Result<void> refuse(Error error);

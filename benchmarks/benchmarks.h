@@ -1,0 +1,11 @@
+// Every file of benchmarks registers its own with Google Benchmark.
+#pragma once
+
+namespace varifold::bench {
+
+void register_simplify();
+void register_progressive_mesh();
+void register_io();
+void register_measure();
+
+}  // namespace varifold::bench

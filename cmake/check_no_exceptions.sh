@@ -1,0 +1,29 @@
+#!/bin/sh
+# check_no_exceptions.sh: compiles the runtime parts (all that is needed to decode a model and to
+# go to its levels) without exceptions and run-time type information, links them with a small
+# program and runs it.
+set -eu
+cd "$(dirname "$0")/.."
+out=build/no_exceptions
+mkdir -p "$out"
+
+# Of base and mesh what the runtime uses; of each model everything but its build.
+sources="src/varifold/base/checksum.cpp src/varifold/mesh/triangle_mesh.cpp"
+sources="$sources $(git ls-files 'src/varifold/view/*.cpp')"
+sources="$sources $(git ls-files 'src/varifold/models/*/*.cpp' | grep -v '/build\.cpp$')"
+sources="$sources tests/runtime/no_exceptions.cpp"
+
+compiler=g++
+! command -v ccache >/dev/null 2>&1 || compiler="ccache g++"
+objects=""
+commands=""
+for source in $sources; do
+  object=$out/$(echo "$source" | tr '/' '_').o
+  objects="$objects $object"
+  commands="$commands$source $object
+"
+done
+printf '%s' "$commands" | xargs -P "$(nproc)" -L 1 sh -c "$compiler -std=c++20 -O1 -Wall -Wextra -ffp-contract=off \
+  -fno-exceptions -fno-rtti -Isrc -c \"\$0\" -o \"\$1\""
+g++ -fno-exceptions -fno-rtti $objects -lxxhash -o "$out/no_exceptions"
+"$out/no_exceptions"

@@ -1,0 +1,139 @@
+#include <varifold/models/pm/geomorph.h>
+
+#include <varifold/models/pm/instance.h>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace varifold {
+
+namespace {
+
+// A pointer for an instance that does not outlive the model.
+std::shared_ptr<const ProgressiveMesh> borrowed(const ProgressiveMesh& model) {
+  return {std::shared_ptr<const ProgressiveMesh>(), &model};
+}
+
+template <class V>
+V between(const V& a, const V& b, float s) {
+  return (1 - s) * a + s * b;  // no overflow, unlike a + s (b - a)
+}
+
+Vec3 normal_between(const Vec3& a, const Vec3& b, float s) {
+  const Vec3 sum = between(a, b, s);
+  const float square = glm::dot(sum, sum);
+  // Opposite normals meet at zero: there is no direction in between.
+  if (!(square > 1e-12f) || !std::isfinite(square)) return s < 0.5f ? a : b;
+  return sum / std::sqrt(square);
+}
+
+Color color_between(const Color& a, const Color& b, float s) {
+  Color result;
+  for (int i = 0; i < 4; ++i)
+    result[i] = static_cast<std::uint8_t>(
+        std::lround(between(static_cast<float>(a[i]), static_cast<float>(b[i]), s)));
+  return result;
+}
+
+}  // namespace
+
+Geomorph::Geomorph(const ProgressiveMesh& model, std::uint32_t level, std::uint32_t other_level,
+                   const GeomorphOptions& options)
+    : options_(options),
+      fine_level_(std::min(std::max(level, other_level), model.finest_level())),
+      coarse_level_(std::min({level, other_level, model.finest_level()})) {
+  options_.share = options.share > 0 ? std::min(options.share, 1.0f) : 1;
+  if (model.finest_level() > 0)
+    level_fraction_ = static_cast<float>(fine_level_) / static_cast<float>(model.finest_level());
+  ProgressiveMeshInstance instance(borrowed(model));
+  instance.go_to_level(coarse_level_);
+  const TriangleMesh coarse = instance.extract();
+  instance.go_to_level(fine_level_);
+  mesh_ = instance.extract();
+  find_moves(model, coarse);
+
+  for (const MaterialRange& range : mesh_.ranges)
+    ranges_.push_back({3 * range.first_triangle, 3 * range.triangle_count, Primitive::kTriangles,
+                       range.material, level_fraction_});
+  if (mesh_.ranges.empty())
+    ranges_.push_back({0, static_cast<std::uint32_t>(mesh_.indices.size()), Primitive::kTriangles,
+                       0, level_fraction_});
+}
+
+Geomorph::Attributes Geomorph::attributes(const TriangleMesh& mesh, std::uint32_t vertex) {
+  Attributes attributes;
+  attributes.position = mesh.positions[vertex];
+  if (mesh.has_normals()) attributes.normal = mesh.normals[vertex];
+  if (mesh.has_texcoords()) attributes.texcoord = mesh.texcoords[vertex];
+  if (mesh.has_colors()) attributes.color = mesh.colors[vertex];
+  return attributes;
+}
+
+void Geomorph::find_moves(const ProgressiveMesh& model, const TriangleMesh& coarse) {
+  const std::uint32_t old_count = coarse.vertex_count();
+  const std::uint32_t count = mesh_.vertex_count();
+  std::vector<std::uint32_t> ancestor(count);
+  for (std::uint32_t v = 0; v < count; ++v) {
+    ancestor[v] = v < old_count ? v : ancestor[model.data().target[v]];
+    const Move move{v,
+                    v < old_count ? 0
+                                  : (1 - options_.share) * static_cast<float>(v - old_count) /
+                                        static_cast<float>(count - old_count),
+                    attributes(coarse, ancestor[v]), attributes(mesh_, v)};
+    if (move.coarse != move.fine) moves_.push_back(move);
+  }
+}
+
+void Geomorph::set(std::uint32_t vertex, const Attributes& attributes) {
+  mesh_.positions[vertex] = attributes.position;
+  if (mesh_.has_normals()) mesh_.normals[vertex] = attributes.normal;
+  if (mesh_.has_texcoords()) mesh_.texcoords[vertex] = attributes.texcoord;
+  if (mesh_.has_colors()) mesh_.colors[vertex] = attributes.color;
+}
+
+void Geomorph::blend(float t) {
+  vertices_changed_ = true;
+  t = t > 0 ? std::min(t, 1.0f) : 0;
+  for (const Move& move : moves_) {
+    // At the ends the very attributes, whatever rounding would make of them.
+    float s = (t - move.start) / options_.share;
+    if (t >= 1 || s >= 1) {
+      set(move.vertex, move.fine);
+      continue;
+    }
+    if (s <= 0) {
+      set(move.vertex, move.coarse);
+      continue;
+    }
+    if (options_.smooth_step) s = s * s * (3 - 2 * s);
+    const Attributes& a = move.coarse;
+    const Attributes& b = move.fine;
+    set(move.vertex, {between(a.position, b.position, s), normal_between(a.normal, b.normal, s),
+                      between(a.texcoord, b.texcoord, s), color_between(a.color, b.color, s)});
+  }
+}
+
+DrawList Geomorph::draw_list() {
+  DrawList list;
+  list.positions = mesh_.positions;
+  list.normals = mesh_.normals;
+  list.texcoords = mesh_.texcoords;
+  list.colors = mesh_.colors;
+  list.indices = mesh_.indices;
+  list.ranges = ranges_;
+  const std::span changed(changed_);
+  if (indices_are_new_) {
+    changed_[0] = {0, mesh_.vertex_count()};
+    changed_[1] = {0, static_cast<std::uint32_t>(mesh_.indices.size())};
+    list.changed_vertices = changed.first(1);
+    list.changed_indices = changed.last(1);
+  } else if (vertices_changed_ && !moves_.empty()) {
+    const std::uint32_t first = moves_.front().vertex;
+    changed_[0] = {first, moves_.back().vertex + 1 - first};
+    list.changed_vertices = changed.first(1);
+  }
+  indices_are_new_ = vertices_changed_ = false;
+  return list;
+}
+
+}  // namespace varifold

@@ -1,0 +1,259 @@
+#include <gtest/gtest.h>
+#include <tests/models/pm/pm_support.h>
+
+#include <varifold/base/random.h>
+#include <varifold/mesh/generators.h>
+#include <varifold/models/pm/geomorph.h>
+#include <atomic>
+#include <cstdlib>
+#include <new>
+#include <thread>
+
+namespace {
+std::atomic<std::size_t> allocations{0};
+}  // namespace
+
+// Counts allocations of this program, for the tests that allow none.
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size > 0 ? size : 1)) return memory;
+  std::abort();
+}
+[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  return operator new(size);
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace varifold::test {
+namespace {
+
+// The buffers of an instance, all that go_to_level() may change.
+void expect_same_buffers(const ProgressiveMeshInstance& a, const ProgressiveMeshInstance& b,
+                         const std::string& where) {
+  EXPECT_EQ(a.level(), b.level()) << where;
+  EXPECT_EQ(a.vertex_count(), b.vertex_count()) << where;
+  EXPECT_EQ(a.triangle_count(), b.triangle_count()) << where;
+  EXPECT_TRUE(a.indices() == b.indices()) << where;
+  EXPECT_TRUE(same_attributes(a.vertices(), b.vertices())) << where;
+}
+
+std::string at(const NamedModel& named, std::uint32_t level) {
+  return named.name + ", level " + std::to_string(level);
+}
+
+TEST(PmInstance, EveryLevelIsTheMeshByDefinition) {
+  for (const NamedModel& named : all_models()) {
+    ProgressiveMeshInstance instance(named.model);
+    for (const std::uint32_t level : spread_levels(named.model->finest_level())) {
+      instance.go_to_level(level);
+      const TriangleMesh mesh = instance.extract();
+      EXPECT_EQ(mesh_difference(mesh, mesh_at_level(named.detailed, level)), "")
+          << at(named, level);
+      EXPECT_EQ(instance.vertex_count(), named.model->vertex_count(level));
+      EXPECT_EQ(instance.triangle_count(), named.model->triangle_count(level));
+      EXPECT_EQ(mesh.vertex_count(), instance.vertex_count());
+      EXPECT_EQ(mesh.triangle_count(), instance.triangle_count());
+    }
+  }
+}
+
+TEST(PmInstance, DownAndUpIsTheIdentity) {
+  for (const NamedModel& named : all_models()) {
+    const std::vector<std::uint32_t> levels = spread_levels(named.model->finest_level());
+    std::vector<ProgressiveMeshInstance> fresh;
+    ProgressiveMeshInstance walker(named.model);
+    for (const std::uint32_t level : levels) {
+      fresh.emplace_back(named.model);
+      fresh.back().go_to_level(level);
+      walker.go_to_level(level);
+      expect_same_buffers(walker, fresh.back(), at(named, level));
+    }
+    for (std::size_t i = levels.size(); i-- > 0;) {
+      walker.go_to_level(levels[i]);
+      expect_same_buffers(walker, fresh[i], at(named, levels[i]) + " on the way down");
+    }
+  }
+}
+
+TEST(PmInstance, RandomSeeks) {
+  Random random(3);
+  for (const NamedModel& named : all_models()) {
+    ProgressiveMeshInstance walker(named.model);
+    for (int i = 0; i < 12; ++i) {
+      const std::uint32_t level = random.below(named.model->finest_level() + 1);
+      ProgressiveMeshInstance fresh(named.model);
+      fresh.go_to_level(level);
+      walker.go_to_level(level);
+      expect_same_buffers(walker, fresh, at(named, level));
+    }
+    walker.go_to_level(0xffffffffu);
+    EXPECT_EQ(walker.level(), named.model->finest_level());
+  }
+}
+
+TEST(PmModel, LevelsByCountErrorAndFraction) {
+  for (const NamedModel& named : all_models()) {
+    const ProgressiveMesh& model = *named.model;
+    const CollapseSequence& sequence = named.detailed.sequence;
+    const std::uint32_t finest = model.finest_level();
+    for (const std::uint32_t level : spread_levels(finest)) {
+      EXPECT_EQ(model.vertex_count(level), sequence.vertices[level]);
+      EXPECT_EQ(model.triangle_count(level), sequence.triangles[level]);
+      // Stored errors are at most 1/128 above.
+      EXPECT_GE(model.error(level), sequence.error[level]) << named.name;
+      EXPECT_LE(model.error(level), sequence.error[level] * 1.008f + 1e-37f) << named.name;
+      for (const std::uint32_t more : {0u, 1u}) {
+        const std::uint32_t triangles = model.triangle_count(level) + more;
+        EXPECT_EQ(model.level_for_triangles(triangles), sequence.level_for_triangles(triangles));
+        const std::uint32_t vertices = model.vertex_count(level) + more;
+        EXPECT_EQ(model.level_for_vertices(vertices), sequence.level_for_vertices(vertices));
+      }
+      const std::uint32_t by_error = model.level_for_error(model.error(level));
+      EXPECT_LE(by_error, level);
+      EXPECT_LE(model.error(by_error), model.error(level));
+      if (by_error > 0) {
+        EXPECT_GT(model.error(by_error - 1), model.error(level));
+      }
+    }
+    for (std::uint32_t k = 1; k <= finest; ++k) ASSERT_LE(model.error(k), model.error(k - 1));
+    EXPECT_EQ(model.level_for_fraction(1), finest);
+    EXPECT_EQ(model.vertex_count(model.level_for_fraction(0)), model.vertex_count(0));
+    EXPECT_EQ(model.level_for_fraction(-1), model.level_for_fraction(0));
+    EXPECT_EQ(model.level_for_fraction(2), finest);
+  }
+}
+
+TEST(PmModel, AncestorsAreThoseOfTheSequence) {
+  for (const NamedModel& named : all_models()) {
+    for (const std::uint32_t level : spread_levels(named.model->finest_level())) {
+      const std::vector<std::uint32_t> ancestors = named.detailed.sequence.ancestors(level);
+      for (std::uint32_t v = 0; v < ancestors.size(); v += 1 + v / 16)
+        ASSERT_EQ(named.model->ancestor(v, level), ancestors[v]);
+    }
+  }
+}
+
+TEST(PmModel, NewestCornerFirst) {
+  for (const NamedModel& named : all_models()) {
+    const std::vector<std::uint32_t>& corners = named.model->data().mesh.indices;
+    for (std::size_t t = 0; t < corners.size(); t += 3) {
+      EXPECT_GT(corners[t], corners[t + 1]) << named.name;
+      EXPECT_GT(corners[t], corners[t + 2]) << named.name;
+    }
+  }
+}
+
+// A copy of what a reader would have on its device, kept up by the changed ranges alone.
+struct DeviceCopy {
+  std::vector<std::uint32_t> indices;
+  std::vector<Vec3> positions;
+  std::vector<Vec3> normals;
+
+  template <class T>
+  static void upload(std::span<const T> from, std::span<const ElementRange> ranges,
+                     std::vector<T>& to) {
+    const std::size_t known = to.size();
+    to.resize(from.size());
+    std::copy(from.begin() + static_cast<std::ptrdiff_t>(std::min(known, from.size())), from.end(),
+              to.begin() + static_cast<std::ptrdiff_t>(std::min(known, from.size())));
+    for (const ElementRange& range : ranges) {
+      ASSERT_LE(std::size_t{range.first} + range.count, from.size());
+      std::copy_n(from.begin() + range.first, range.count, to.begin() + range.first);
+    }
+  }
+  void take(const DrawList& list) {
+    upload(list.indices, list.changed_indices, indices);
+    upload(list.positions, list.changed_vertices, positions);
+    if (!list.normals.empty()) upload(list.normals, list.changed_vertices, normals);
+  }
+  void expect_same(const DrawList& list, const std::string& where) const {
+    EXPECT_TRUE(std::equal(indices.begin(), indices.end(), list.indices.begin())) << where;
+    EXPECT_EQ(std::memcmp(positions.data(), list.positions.data(), list.positions.size_bytes()), 0)
+        << where;
+    if (!list.normals.empty()) {
+      EXPECT_EQ(std::memcmp(normals.data(), list.normals.data(), list.normals.size_bytes()), 0)
+          << where;
+    }
+  }
+};
+
+TEST(PmInstance, ChangedRangesCoverAllChanges) {
+  Random random(4);
+  // Changes are noted by blocks of thousands: of two large meshes, too.
+  const NamedMesh large{"large", planet({{.triangles = 30000}, 0.12f, false})};
+  const NamedModel kept = make_model(large, Placement::kKept);
+  const NamedModel optimal = make_model(large, Placement::kOptimal);
+  std::vector<const NamedModel*> models = small_models(0xffffffffu);
+  models.insert(models.end(), {&kept, &optimal});
+  for (const NamedModel* each : models) {
+    const NamedModel& named = *each;
+    if (named.model->triangle_count() == 0) continue;
+    ProgressiveMeshInstance instance(named.model);
+    DeviceCopy device;
+    for (int i = 0; i < 12; ++i) {
+      const DrawList list = instance.draw_list();
+      device.take(list);
+      device.expect_same(list, at(named, instance.level()));
+      EXPECT_EQ(submitted_triangles(list), instance.triangle_count());
+      std::size_t end = 0;
+      for (const DrawRange& range : list.ranges) {
+        EXPECT_GE(range.first_index, end);
+        end = std::size_t{range.first_index} + range.index_count;
+        for (std::size_t j = range.first_index; j < end; ++j)
+          ASSERT_LT(list.indices[j], instance.vertex_count());
+      }
+      // Nothing changed: nothing to upload.
+      const DrawList again = instance.draw_list();
+      EXPECT_TRUE(again.changed_indices.empty() && again.changed_vertices.empty());
+      if (i % 3 == 1) {  // a small step: most blocks stay
+        instance.go_to_level(instance.level() + 5);
+        continue;
+      }
+      if (i % 3 == 2) instance.go_to_level(random.below(named.model->finest_level() + 1));
+      instance.go_to_level(random.below(named.model->finest_level() + 1));
+    }
+  }
+}
+
+TEST(PmInstance, AllocatesNothingPerFrame) {
+  Random random(5);
+  for (const NamedModel& named : all_models()) {
+    ProgressiveMeshInstance instance(named.model);
+    Geomorph geomorph(*named.model, named.model->finest_level(), 0);
+    const std::size_t before = allocations;
+    for (int i = 0; i < 20; ++i) {
+      instance.go_to_level(random.below(named.model->finest_level() + 1));
+      static_cast<void>(instance.draw_list());
+      geomorph.blend(static_cast<float>(random.uniform()));
+      static_cast<void>(geomorph.draw_list());
+    }
+    EXPECT_EQ(allocations, before) << named.name;
+  }
+}
+
+TEST(PmInstance, ThreadsShareAModel) {
+  const NamedModel named = make_model({"icosphere", icosphere(2000)}, Placement::kOptimal);
+  const std::uint32_t finest = named.model->finest_level();
+  const auto wander = [&](std::uint64_t seed) {
+    Random random(seed);
+    ProgressiveMeshInstance instance(named.model);
+    for (int i = 0; i < 200; ++i) {
+      instance.go_to_level(random.below(finest + 1));
+      static_cast<void>(instance.draw_list());
+    }
+    instance.go_to_level(finest / 2);
+    return instance.extract();
+  };
+  TriangleMesh a, b;
+  std::thread first([&] { a = wander(1); });
+  std::thread second([&] { b = wander(2); });
+  first.join();
+  second.join();
+  EXPECT_TRUE(same_attributes(a, b));
+  EXPECT_TRUE(a.indices == b.indices);
+  EXPECT_EQ(mesh_difference(a, mesh_at_level(named.detailed, finest / 2)), "");
+}
+
+}  // namespace
+}  // namespace varifold::test
