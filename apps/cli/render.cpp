@@ -101,8 +101,8 @@ CommandResult run_render(const RenderCommand& command) {
     return tl::unexpected(writable.error());
   const Stopwatch watch;
   Report report;
-  const CommandResult drawn = is_model_file(input) ? render_model(command, input, report)
-                                                   : render_mesh(command, input, report);
+  CommandResult drawn = is_model_file(input) ? render_model(command, input, report)
+                                             : render_mesh(command, input, report);
   if (!drawn) return drawn;
   report.seconds("seconds", "time", watch.seconds());
   return finish(report, command.common, output);
