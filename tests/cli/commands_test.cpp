@@ -92,6 +92,26 @@ TEST_F(Commands, InfoOfAModel) {
   EXPECT_EQ(told["file_bytes"], std::filesystem::file_size(path("m.vfm")));
 }
 
+TEST_F(Commands, BenchInThreeWays) {
+  make_mesh("m.ply");
+  make_model("m.ply", "m.vfm");
+  for (const char* test : {"linear", "exponential", "random"}) {
+    const json told = run_json(
+        {"bench", path("m.vfm"), path("m.vfm"), "--test", test, "--steps", "40"}, {"results"});
+    ASSERT_EQ(told["results"].size(), 2u);
+    const json& result = told["results"][0];
+    for (const char* key :
+         {"kind", "test", "steps", "seconds_total", "seconds_extraction", "seconds_drawing",
+          "collapses_per_second", "indices_submitted", "bytes_per_vertex"})
+      EXPECT_TRUE(result.contains(key)) << key;
+    EXPECT_EQ(result["test"], test);
+    EXPECT_EQ(result["steps"], 40);
+    EXPECT_GT(result["collapses"], 0);
+    EXPECT_EQ(result["collapses"], told["results"][1]["collapses"]);
+    EXPECT_EQ(result["indices_submitted"], told["results"][1]["indices_submitted"]);
+  }
+}
+
 TEST_F(Commands, SimplifyToTriangles) {
   make_mesh("m.ply");
   const json told = run_json(
