@@ -227,9 +227,9 @@ namespace {
 // Where the instances of the row stand: along a line that goes off to the right, ever farther.
 std::vector<Vec3> crowd_places() {
   std::vector<Vec3> places;
-  float depth = 0, step = 2.4f;
-  for (int i = 0; i < 9; ++i, step *= 1.5f) {
-    places.push_back({1.25f * depth, 0.16f * depth, -depth});
+  float depth = 0, step = 3.5f;
+  for (int i = 0; i < 9; ++i, step *= 1.6f) {
+    places.push_back({0.75f * depth + (i > 0 ? 0.8f : 0.0f), 0.06f * depth, -depth});
     depth += step;
   }
   return places;
@@ -240,8 +240,8 @@ Camera crowd_camera(const std::vector<Vec3>& places) {
   camera.width = 1600;
   camera.height = 560;
   camera.fovy_degrees = 25;
-  camera.eye = {0.9f, 0.9f, 6.6f};
-  camera.target = {2.35f, 0.35f, 0};
+  camera.eye = {0.9f, 0.8f, 6.6f};
+  camera.target = {2.35f, 0.15f, 0};
   const float radius = 3 + glm::length(places.back());
   set_depth_range(camera, Sphere{Vec3(0), radius});
   return camera;

@@ -5,6 +5,7 @@
 #include <apps/cli/picture.h>
 #include <varifold/models/pm/instance.h>
 #include <varifold/render/mesh_draw_list.h>
+#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -21,10 +22,13 @@ struct RenderCommand {
   int supersampling = 2;
 };
 
-// What shows most of what the mesh has.
+// What shows most of what the mesh has. White materials, as those with textures are, show nothing.
 ColorMode automatic_color(const TriangleMesh& mesh) {
   if (mesh.has_colors()) return ColorMode::kVertexColor;
-  return mesh.materials.empty() ? ColorMode::kPlain : ColorMode::kMaterial;
+  const bool is_colored =
+      std::any_of(mesh.materials.begin(), mesh.materials.end(),
+                  [](const Material& material) { return Vec3(material.base_color) != Vec3(1); });
+  return is_colored ? ColorMode::kMaterial : ColorMode::kPlain;
 }
 
 ColorMode color_mode(const std::string& name, const TriangleMesh& mesh) {
@@ -101,8 +105,8 @@ CommandResult run_render(const RenderCommand& command) {
     return tl::unexpected(writable.error());
   const Stopwatch watch;
   Report report;
-  const CommandResult drawn = is_model_file(input) ? render_model(command, input, report)
-                                                   : render_mesh(command, input, report);
+  CommandResult drawn = is_model_file(input) ? render_model(command, input, report)
+                                             : render_mesh(command, input, report);
   if (!drawn) return drawn;
   report.seconds("seconds", "time", watch.seconds());
   return finish(report, command.common, output);

@@ -48,6 +48,7 @@ ToolResult run_tool(const std::vector<std::string>& arguments, const ToolOptions
   std::vector<std::string> words{VARIFOLD_TOOL};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;
+  pointers.reserve(words.size() + 1);
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
 

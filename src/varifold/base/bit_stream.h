@@ -23,7 +23,7 @@ class BitWriter {
   /// A number in [0, count) whose values are all as likely: log2(count) bits, at most one more for
   /// some of them (truncated binary code). count > 0.
   void uniform(std::uint32_t value, std::uint32_t count) {
-    const auto width = static_cast<unsigned>(std::bit_width(count)) - 1;
+    const auto width = static_cast<unsigned>(std::bit_width(count >> 1));
     const std::uint32_t longer = count - (1u << width);  // so many prefixes have one bit more
     bits(value % (1u << width), width);
     const std::uint32_t prefix = value & ((1u << width) - 1);
@@ -72,7 +72,7 @@ class BitReader {
   }
   /// count > 0; the result is below it.
   std::uint32_t uniform(std::uint32_t count) {
-    const auto width = static_cast<unsigned>(std::bit_width(count)) - 1;
+    const auto width = static_cast<unsigned>(std::bit_width(count >> 1));
     const std::uint32_t longer = count - (1u << width);
     const std::uint64_t window = peek();
     const auto prefix = static_cast<std::uint32_t>(window & ((std::uint64_t{1} << width) - 1));

@@ -130,6 +130,7 @@ class Rounds {
     border.end = surface_.point_count();
     border.queue.restart();
     collapser_.home_cells = &cells_;
+    collapser_.points_per_home = cells_.front().end;
     for (Cell& cell : cells_) {
       for (const std::uint32_t point : cell.deferred) {
         surface_.points[point].flags |= PointState::kDirty;

@@ -38,8 +38,7 @@ struct Prefetcher {
 // Within the round a point stays with the cell that drains it; later it is due in its own cell.
 void Collapser::requeue(Cell& cell, std::uint32_t point, std::uint32_t bucket) {
   if (!home_cells || bucket < cell.limit) return cell.queue.push(point, bucket);
-  for (Cell& home : *home_cells)
-    if (point < home.end) return home.queue.push(point, bucket);
+  (*home_cells)[point / points_per_home].queue.push(point, bucket);
 }
 
 bool Collapser::leaves_cell(const Cell& cell, std::uint32_t point) {

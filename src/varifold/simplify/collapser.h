@@ -65,6 +65,7 @@ class Collapser {
   /// Where `queue` of the cells other than the drained one receive points that become free again:
   /// the serial pass sets this; null means the drained cell itself.
   std::vector<Cell>* home_cells = nullptr;
+  std::uint32_t points_per_home = 1;  ///< all but the last of those have as many
 
  private:
   struct Candidate {

@@ -41,6 +41,13 @@ void RingMerger::rename_neighbor(std::uint32_t point, std::uint32_t from, std::u
     if (entry.neighbor == from) entry.neighbor = onto;
 }
 
+// In a plain ring a neighbour occurs once, and here it does.
+void RingMerger::rename_in_plain_ring(std::uint32_t point, std::uint32_t from, std::uint32_t onto) {
+  RingEntry* entry = surface_.ring(point);
+  while (entry->neighbor != from) ++entry;
+  entry->neighbor = onto;
+}
+
 // Takes the entry of `from` out of a ring. With it goes its face, or, if that is kept, the face of
 // the entry before it.
 void RingMerger::drop_neighbor(std::uint32_t point, std::uint32_t from, bool keep_its_face) {
@@ -48,8 +55,7 @@ void RingMerger::drop_neighbor(std::uint32_t point, std::uint32_t from, bool kee
   std::size_t i = 0;
   while (entries[i].neighbor != from) ++i;
   if (keep_its_face) entries[i == 0 ? entries.size() - 1 : i - 1].face = entries[i].face;
-  std::copy(entries.begin() + static_cast<std::ptrdiff_t>(i) + 1, entries.end(),
-            entries.begin() + static_cast<std::ptrdiff_t>(i));
+  for (std::size_t k = i + 1; k < entries.size(); ++k) entries[k - 1] = entries[k];
   if (entries.size() <= RingLine::kCapacity) {
     --surface_.points[point].ring_size;
     return;
@@ -90,7 +96,7 @@ void RingMerger::merge_regular(std::uint32_t from, std::uint32_t onto,
   }
   surface_.set_ring(onto, {merged, count});
 
-  for (std::size_t i = 2; i + 1 < size; ++i) rename_neighbor(ring_at(i).neighbor, from, onto);
+  for (std::size_t i = 2; i + 1 < size; ++i) rename_in_plain_ring(ring_at(i).neighbor, from, onto);
   drop_neighbor(a.neighbor, from, false);
   drop_neighbor(b.neighbor, from, true);
 }

@@ -40,6 +40,7 @@ class RingMerger {
   void merge_irregular(std::uint32_t from, std::uint32_t onto, std::vector<std::uint32_t>& removed);
   void drop_neighbor(std::uint32_t point, std::uint32_t from, bool keep_its_face);
   void rename_neighbor(std::uint32_t point, std::uint32_t from, std::uint32_t onto);
+  void rename_in_plain_ring(std::uint32_t point, std::uint32_t from, std::uint32_t onto);
   [[nodiscard]] bool sides_along(std::uint32_t from, std::uint32_t onto);
 
   struct Side {

@@ -46,6 +46,37 @@ TEST(PmEncoding, KeepsMaterialsAndImages) {
   EXPECT_EQ(decoded->data().mesh.ranges.size(), 2u);
 }
 
+// As the poles of a sphere do that have a wedge in each sector.
+TEST(PmEncoding, ASplitMovesManyVerticesBack) {
+  NamedModel named = make_model({"icosphere", icosphere(2000)}, Placement::kOptimal);
+  CollapseSequence& sequence = named.detailed.sequence;
+  const std::uint32_t level = sequence.step_count() / 2;
+  const TriangleMesh finer = mesh_at_level(named.detailed, level + 1);
+  const auto at = sequence.placed_vertex.begin() + sequence.first_placed[level + 1];
+  const auto first = sequence.placed_vertex.begin() + sequence.first_placed[level];
+  std::vector<std::uint32_t> more;
+  for (std::uint32_t v = 0; v < sequence.vertices[level]; ++v)
+    if (std::find(first, at, v) == at) more.push_back(v);
+  ASSERT_GT(more.size(), 255u);
+  const auto place = at - sequence.placed_vertex.begin();
+  sequence.placed_vertex.insert(at, more.begin(), more.end());
+  TriangleMesh& placed = sequence.placed;
+  const auto insert = [&](const std::vector<Vec3>& from, std::vector<Vec3>& to) {
+    std::vector<Vec3> values;
+    for (const std::uint32_t v : more) values.push_back(from[v]);
+    to.insert(to.begin() + place, values.begin(), values.end());
+  };
+  insert(finer.positions, placed.positions);
+  insert(finer.normals, placed.normals);
+  for (std::size_t k = level + 1; k < sequence.first_placed.size(); ++k)
+    sequence.first_placed[k] += static_cast<std::uint32_t>(more.size());
+
+  const ProgressiveMesh model = build_progressive_mesh(named.detailed);
+  const auto decoded = decode_progressive_mesh(encode_progressive_mesh(model));
+  ASSERT_TRUE(decoded) << decoded.error().message;
+  EXPECT_EQ(difference(model.data(), decoded->data()), "");
+}
+
 TEST(PmEncoding, EmptyModels) {
   const auto decoded = decode_progressive_mesh(encode_progressive_mesh(ProgressiveMesh{}));
   ASSERT_TRUE(decoded);

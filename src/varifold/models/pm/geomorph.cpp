@@ -3,7 +3,6 @@
 #include <varifold/models/pm/instance.h>
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <memory>
 
 namespace varifold {
@@ -32,13 +31,8 @@ Color color_between(const Color& a, const Color& b, float s) {
   Color result;
   for (int i = 0; i < 4; ++i)
     result[i] = static_cast<std::uint8_t>(
-        between(static_cast<float>(a[i]), static_cast<float>(b[i]), s) + 0.5f);
+        std::lround(between(static_cast<float>(a[i]), static_cast<float>(b[i]), s)));
   return result;
-}
-
-template <class T>
-bool same_bytes(const T& a, const T& b) {
-  return std::memcmp(&a, &b, sizeof(T)) == 0;
 }
 
 }  // namespace
@@ -86,7 +80,7 @@ void Geomorph::find_moves(const ProgressiveMesh& model, const TriangleMesh& coar
                                   : (1 - options_.share) * static_cast<float>(v - old_count) /
                                         static_cast<float>(count - old_count),
                     attributes(coarse, ancestor[v]), attributes(mesh_, v)};
-    if (!same_bytes(move.coarse, move.fine)) moves_.push_back(move);
+    if (move.coarse != move.fine) moves_.push_back(move);
   }
 }
 

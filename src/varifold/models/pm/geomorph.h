@@ -50,6 +50,7 @@ class Geomorph {
     Vec3 position{0}, normal{0};
     Vec2 texcoord{0};
     Color color{0};
+    friend bool operator==(const Attributes&, const Attributes&) = default;
   };
   struct Move {
     std::uint32_t vertex;

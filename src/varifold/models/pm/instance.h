@@ -45,10 +45,8 @@ class ProgressiveMeshInstance {
 
   void split_to(std::uint32_t level);
   void collapse_to(std::uint32_t level);
-  std::uint32_t write_split(const VertexSplit& split, const std::uint32_t* slots);
   void place(std::uint32_t vertex, const TriangleMesh& from, std::uint32_t index);
   void update_ranges();
-  void collect_changes();
 
   std::shared_ptr<const ProgressiveMesh> model_;
   std::uint32_t level_ = 0;

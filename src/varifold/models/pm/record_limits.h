@@ -8,6 +8,5 @@ namespace varifold::pm {
 inline constexpr std::uint32_t kMaxWedges = 255;
 inline constexpr std::uint32_t kMaxTriangles = 255;
 inline constexpr std::uint32_t kMaxSlots = 65535 - kMaxWedges;  // room for kNoSlot
-inline constexpr std::uint32_t kMaxPlaced = 255;
 
 }  // namespace varifold::pm

@@ -144,15 +144,17 @@ const char* RecordReader::read_placed() {
   if (bits_->bits(1) == 0) {
     predict_placed_vertices(*record_, vertices);
   } else {
+    const std::uint32_t all = state_->surface.vertex_count();
     const std::uint32_t count = read_number(CodeModels::kPlacedCount);
-    if (count > kMaxPlaced) return "too many vertices move in one split";
-    for (std::uint32_t i = 0; i < count && !bits_->exhausted(); ++i) {
-      const std::uint32_t vertex = bits_->uniform(state_->surface.vertex_count());
-      if (std::find(vertices.begin(), vertices.end(), vertex) != vertices.end())
-        return "a vertex moves twice in one split";
-      vertices.push_back(vertex);
-    }
+    if (count > all) return "more vertices move in one split than there are";
+    for (std::uint32_t i = 0; i < count && !bits_->exhausted(); ++i)
+      vertices.push_back(bits_->uniform(all));
+    scratch_ = vertices;
+    std::sort(scratch_.begin(), scratch_.end());
+    if (std::adjacent_find(scratch_.begin(), scratch_.end()) != scratch_.end())
+      return "a vertex moves twice in one split";
   }
+  if (bits_->exhausted()) return nullptr;
   for (const std::uint32_t vertex : vertices) {
     const Codes& new_codes = record_->codes[split_off(*record_, vertex)];
     const Prediction prediction = state_->coder.predict_placed(state_->codes_of(vertex), new_codes);

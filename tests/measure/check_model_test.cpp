@@ -1,0 +1,170 @@
+// A checker is worth what it finds: sound models pass, planted faults are named.
+#include <gtest/gtest.h>
+
+#include <tests/support/meshes.h>
+#include <varifold/measure/check_model.h>
+#include <varifold/mesh/generators.h>
+#include <varifold/models/pm/build.h>
+#include <varifold/simplify/simplify.h>
+#include <algorithm>
+#include <functional>
+
+namespace varifold {
+namespace {
+
+using Shared = std::shared_ptr<const ProgressiveMesh>;
+
+Shared model_of(const TriangleMesh& mesh, Placement placement = Placement::kKept) {
+  SimplifyOptions options;
+  options.placement = placement;
+  const auto simplified = simplify(mesh, options);
+  EXPECT_TRUE(simplified) << simplified.error().message;
+  return std::make_shared<const ProgressiveMesh>(build_progressive_mesh(simplified->detailed));
+}
+
+std::string listed(const std::vector<Fault>& faults) {
+  std::string text;
+  for (const Fault& fault : faults) text += fault.kind + " at " + fault.where + "; ";
+  return text;
+}
+
+bool has(const std::vector<Fault>& faults, const char* kind) {
+  return std::any_of(faults.begin(), faults.end(),
+                     [&](const Fault& fault) { return fault.kind == kind; });
+}
+
+TEST(CheckModel, AllGroupsAreSound) {
+  for (const auto& [name, mesh] : test::all_groups()) {
+    for (const Placement placement : {Placement::kKept, Placement::kOptimal}) {
+      const auto check = check_progressive_mesh(model_of(mesh, placement));
+      ASSERT_TRUE(check);
+      EXPECT_TRUE(is_sound(check->faults)) << name << ": " << listed(check->faults);
+    }
+  }
+}
+
+TEST(CheckModel, VisitsAllLevelsOfASmallModelAndASpreadOfALargeOne) {
+  const Shared model = model_of(test::icosphere(1280));
+  EXPECT_EQ(check_progressive_mesh(model)->levels_checked, model->finest_level() + 1);
+  ModelCheckOptions few;
+  few.all_levels_up_to = 100;
+  few.spread_levels = 20;
+  const auto check = check_progressive_mesh(model, few);
+  EXPECT_GE(check->levels_checked, 15u);
+  EXPECT_LE(check->levels_checked, 24u);
+  EXPECT_TRUE(check->faults.empty());
+}
+
+TEST(CheckModel, EmptyModel) {
+  const auto check = check_progressive_mesh(std::make_shared<const ProgressiveMesh>());
+  ASSERT_TRUE(check);
+  EXPECT_TRUE(check->faults.empty());
+}
+
+TEST(CheckModel, CanBeCancelled) {
+  ModelCheckOptions options;
+  options.progress = [](std::string_view, float) { return false; };
+  const auto check = check_progressive_mesh(model_of(test::icosphere(320)), options);
+  ASSERT_FALSE(check);
+  EXPECT_EQ(check.error().kind, ErrorKind::kCancelled);
+}
+
+TEST(CheckModel, SameReportForAnyNumberOfThreads) {
+  const Shared model = model_of(test::icosphere(2000));
+  ModelCheckOptions one, three;
+  one.threads = 1;
+  three.threads = 3;
+  EXPECT_EQ(listed(check_progressive_mesh(model, one)->faults),
+            listed(check_progressive_mesh(model, three)->faults));
+}
+
+/// The faults of a sphere's model after a change of its data.
+std::vector<Fault> faults_after(const std::function<void(ProgressiveMeshData&)>& damage) {
+  ProgressiveMeshData data = model_of(test::icosphere(320))->data();
+  damage(data);
+  const auto check =
+      check_progressive_mesh(std::make_shared<const ProgressiveMesh>(std::move(data)));
+  EXPECT_TRUE(check);
+  return check ? check->faults : std::vector<Fault>{};
+}
+
+TEST(CheckModel, FindsASlotThatIsNotThere) {
+  const auto faults = faults_after([](ProgressiveMeshData& data) {
+    // The split of the middle changes one corner of another triangle instead.
+    std::uint32_t& slot = data.slots[data.slots.size() / 2];
+    const std::uint32_t flag = slot & ProgressiveMeshData::kLastSlot;
+    slot = ((slot & ~flag) + 3) % static_cast<std::uint32_t>(data.mesh.indices.size()) | flag;
+  });
+  EXPECT_TRUE(has(faults, "wrong_corner")) << listed(faults);
+  EXPECT_TRUE(has(faults, "not_closed") || has(faults, "not_identical")) << listed(faults);
+}
+
+TEST(CheckModel, FindsAWrongAncestor) {
+  const auto faults = faults_after(
+      [](ProgressiveMeshData& data) { data.target.back() = data.target.back() == 0 ? 1 : 0; });
+  EXPECT_TRUE(has(faults, "not_identical") || has(faults, "wrong_corner")) << listed(faults);
+}
+
+TEST(CheckModel, FindsALostTriangle) {
+  const auto faults = faults_after([](ProgressiveMeshData& data) {
+    // The last split shows one of its triangles; the other comes never.
+    data.splits.back().triangles = 1;
+  });
+  EXPECT_TRUE(has(faults, "lost_triangle")) << listed(faults);
+}
+
+TEST(CheckModel, FindsRisingAndBrokenErrors) {
+  EXPECT_TRUE(
+      has(faults_after([](ProgressiveMeshData& data) { data.error[5] = data.error[4] + 1; }),
+          "error_not_monotone"));
+  EXPECT_TRUE(has(faults_after([](ProgressiveMeshData& data) {
+                    data.error[5] = std::numeric_limits<float>::quiet_NaN();
+                  }),
+                  "error_not_monotone"));
+}
+
+TEST(CheckModel, FindsErrorsThatAreTooSmall) {
+  const auto halve = [](ProgressiveMeshData& data) {
+    for (float& error : data.error) error *= 0.5f;
+  };
+  EXPECT_TRUE(has(faults_after(halve), "error_exceeded"));
+  // Nobody promised anything of estimates.
+  EXPECT_FALSE(has(faults_after([&](ProgressiveMeshData& data) {
+                     halve(data);
+                     data.error_is_measured = false;
+                   }),
+                   "error_exceeded"));
+}
+
+// A dart, whose middle M collapses onto a wing: (B, C, D) turns over.
+//
+//        A
+//        M
+//      . C .
+//    B       D
+TEST(CheckModel, FindsAFlippedTriangle) {
+  DetailedMesh detailed;
+  detailed.mesh = test::make_mesh({{0, 3, 0}, {-2, -2, 0}, {0, -0.5f, 0}, {2, -2, 0}, {0, 0.5f, 0}},
+                                  {4, 2, 3, 4, 3, 0, 4, 0, 1, 4, 1, 2});
+  detailed.sequence.target = {kNone, kNone, kNone, kNone, 1};
+  detailed.sequence.triangle_level = {0, 0, 1, 1};
+  detailed.sequence.vertices = {4, 5};
+  detailed.sequence.triangles = {2, 4};
+  detailed.sequence.error = {1, 0};
+  const auto check = check_progressive_mesh(
+      std::make_shared<const ProgressiveMesh>(build_progressive_mesh(detailed)));
+  ASSERT_TRUE(check);
+  ASSERT_EQ(check->faults.size(), 1u) << listed(check->faults);
+  EXPECT_EQ(check->faults[0].kind, "flipped_triangle");
+  EXPECT_EQ(check->faults[0].where, "level 0 (1 triangles)");
+}
+
+TEST(CheckModel, NotesPointsAtOnePosition) {
+  const auto faults = faults_after([](ProgressiveMeshData& data) {
+    data.mesh.positions.back() = data.mesh.positions[data.mesh.positions.size() - 2];
+  });
+  EXPECT_TRUE(has(faults, "coincident_point")) << listed(faults);
+}
+
+}  // namespace
+}  // namespace varifold
