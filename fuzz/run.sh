@@ -7,7 +7,7 @@ cd "$(dirname "$0")/.."
 seconds=${1:-60}
 [ $# -eq 0 ] || shift
 targets=${*:-ply obj stl gltf glb container progressive_mesh}
-sh cmake/build_preset.sh fuzz
+sh cmake/build_preset.sh fuzz fuzz_seeds $(printf "fuzz_%s " $targets)
 
 build=build/fuzz
 "$build/bin/fuzz_seeds" "$build/seeds"
