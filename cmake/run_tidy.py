@@ -74,6 +74,8 @@ def main():
             if status != 0:
                 faulty.append(name)
                 print(output.strip(), flush=True)
+                if status < 0:
+                    print(f"clang-tidy was ended by signal {-status}: {name}", flush=True)
             elif seconds > 0:
                 print(f"clean: {name} ({seconds:.0f} s)", flush=True)
     print(f"clang-tidy: {count} units, {looked} looked at, {len(faulty)} with faults", *faulty)
