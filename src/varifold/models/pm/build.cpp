@@ -1,6 +1,6 @@
 #include <varifold/models/pm/build.h>
 
-#include <varifold/models/pm/error_code.h>
+#include <varifold/models/common/error_code.h>
 #include <varifold/models/pm/slot_order.h>
 #include <varifold/simplify/sequence_replay.h>
 #include <algorithm>

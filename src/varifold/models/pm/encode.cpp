@@ -1,5 +1,6 @@
+#include <varifold/models/common/error_code.h>
+#include <varifold/models/common/mesh_bytes.h>
 #include <varifold/models/pm/encoding.h>
-#include <varifold/models/pm/error_code.h>
 #include <varifold/models/pm/record_writer.h>
 #include <varifold/models/pm/stream_header.h>
 #include <algorithm>
@@ -35,7 +36,7 @@ class ProgressiveMeshEncoder {
   std::vector<std::byte> encode() {
     std::vector<std::byte> header, images, base = encode_base();
     pm::append_header(header_, header);
-    pm::append_images(data_.mesh.images, images);
+    append_images(data_.mesh.images, images);
     std::vector<std::byte> bytes;
     pm::append_preamble({static_cast<std::uint32_t>(header.size()), images.size(), base.size()},
                         bytes);

@@ -1,5 +1,6 @@
 #include <varifold/models/pm/instance.h>
 
+#include <varifold/models/common/extract_level.h>
 #include <algorithm>
 #include <cassert>
 
@@ -16,24 +17,6 @@ void copy_one(const std::vector<T>& from, std::uint32_t index, std::vector<T>& t
   if (!from.empty()) to[vertex] = from[index];
 }
 
-std::size_t block_count(std::size_t elements, std::uint32_t bits) { return (elements >> bits) + 1; }
-
-// Joins neighbouring changed blocks into ranges of elements below `size`, and forgets them.
-void take_blocks(std::vector<std::uint8_t>& blocks, std::uint32_t bits, std::uint32_t size,
-                 std::vector<ElementRange>& ranges) {
-  ranges.clear();
-  for (std::uint32_t i = 0; i < blocks.size() && (i << bits) < size; ++i) {
-    if (!blocks[i]) continue;
-    blocks[i] = 0;
-    const std::uint32_t first = i << bits;
-    const std::uint32_t count = std::min(size - first, 1u << bits);
-    if (!ranges.empty() && ranges.back().first + ranges.back().count == first)
-      ranges.back().count += count;
-    else
-      ranges.push_back({first, count});
-  }
-}
-
 }  // namespace
 
 ProgressiveMeshInstance::ProgressiveMeshInstance(std::shared_ptr<const ProgressiveMesh> model)
@@ -42,10 +25,8 @@ ProgressiveMeshInstance::ProgressiveMeshInstance(std::shared_ptr<const Progressi
   indices_ = data.mesh.indices;
   vertex_count_ = data.base_vertices;
   triangle_count_ = data.base_triangles;
-  changed_blocks_.assign(block_count(indices_.size(), kBlockBits), 1);
-  changed_vertex_blocks_.assign(block_count(data.mesh.positions.size(), kBlockBits), 1);
-  changed_indices_.reserve(changed_blocks_.size());
-  changed_vertices_.reserve(changed_vertex_blocks_.size());
+  changed_indices_.reset(indices_.size());
+  changed_vertices_.reset(data.mesh.positions.size());
 
   const std::size_t ranges = std::max<std::size_t>(1, data.mesh.ranges.size());
   range_counts_.assign(ranges, 0);
@@ -73,7 +54,7 @@ void ProgressiveMeshInstance::place(std::uint32_t vertex, const TriangleMesh& fr
   copy_one(from.normals, index, moved_.normals, vertex);
   copy_one(from.texcoords, index, moved_.texcoords, vertex);
   copy_one(from.colors, index, moved_.colors, vertex);
-  changed_vertex_blocks_[vertex >> kBlockBits] = 1;
+  changed_vertices_.mark(vertex);
 }
 
 void ProgressiveMeshInstance::go_to_level(std::uint32_t level) {
@@ -90,14 +71,13 @@ void ProgressiveMeshInstance::split_to(std::uint32_t level) {
   const ProgressiveMeshData& data = model_->data();
   const std::uint32_t* slot = data.slots.data() + slot_cursor_;
   std::uint32_t* indices = indices_.data();
-  std::uint8_t* changed = changed_blocks_.data();
   for (std::uint32_t k = level_; k < level; ++k) {
     const VertexSplit split = data.splits[k];
     if (split.vertices == 1) {
       for (std::uint32_t i = 0; i < split.slots; ++i) {
         const std::uint32_t place = slot[i] & ~kLastSlot;
         indices[place] = vertex_count_;
-        changed[place >> kBlockBits] = 1;
+        changed_indices_.mark(place);
       }
     } else {
       std::uint32_t vertex = vertex_count_;
@@ -105,7 +85,7 @@ void ProgressiveMeshInstance::split_to(std::uint32_t level) {
         const std::uint32_t place = slot[i] & ~kLastSlot;
         if (place != kNoSlot) {
           indices[place] = vertex;
-          changed[place >> kBlockBits] = 1;
+          changed_indices_.mark(place);
         }
         if (slot[i] & kLastSlot) ++vertex;
       }
@@ -127,7 +107,6 @@ void ProgressiveMeshInstance::collapse_to(std::uint32_t level) {
   const ProgressiveMeshData& data = model_->data();
   const std::uint32_t* slot = data.slots.data() + slot_cursor_;
   std::uint32_t* indices = indices_.data();
-  std::uint8_t* changed = changed_blocks_.data();
   for (std::uint32_t k = level_; k-- > level;) {
     const VertexSplit split = data.splits[k];
     slot -= split.slots;
@@ -138,7 +117,7 @@ void ProgressiveMeshInstance::collapse_to(std::uint32_t level) {
       for (std::uint32_t i = 0; i < split.slots; ++i) {
         const std::uint32_t place = slot[i] & ~kLastSlot;
         indices[place] = target;
-        changed[place >> kBlockBits] = 1;
+        changed_indices_.mark(place);
       }
     } else {
       std::uint32_t vertex = vertex_count_;
@@ -146,7 +125,7 @@ void ProgressiveMeshInstance::collapse_to(std::uint32_t level) {
         const std::uint32_t place = slot[i] & ~kLastSlot;
         if (place != kNoSlot) {
           indices[place] = data.target[vertex];
-          changed[place >> kBlockBits] = 1;
+          changed_indices_.mark(place);
         }
         if (slot[i] & kLastSlot) ++vertex;
       }
@@ -183,12 +162,7 @@ DrawList ProgressiveMeshInstance::draw_list() {
                          Primitive::kTriangles, mesh.ranges[r].material, fraction});
   }
 
-  take_blocks(changed_blocks_, kBlockBits, static_cast<std::uint32_t>(indices_.size()),
-              changed_indices_);
   const TriangleMesh& vertices = this->vertices();
-  take_blocks(changed_vertex_blocks_, kBlockBits,
-              static_cast<std::uint32_t>(vertices.positions.size()), changed_vertices_);
-
   DrawList list;
   list.positions = vertices.positions;
   list.normals = vertices.normals;
@@ -196,9 +170,15 @@ DrawList ProgressiveMeshInstance::draw_list() {
   list.colors = vertices.colors;
   list.indices = indices_;
   list.ranges = ranges_;
-  list.changed_indices = changed_indices_;
-  list.changed_vertices = changed_vertices_;
+  list.changed_indices = changed_indices_.take();
+  list.changed_vertices = changed_vertices_.take();
   return list;
+}
+
+std::size_t ProgressiveMeshInstance::bytes() const {
+  return (indices_.size() + range_counts_.size()) * sizeof(std::uint32_t) +
+         attribute_bytes(moved_) + ranges_.capacity() * sizeof(DrawRange) +
+         changed_indices_.bytes() + changed_vertices_.bytes();
 }
 
 TriangleMesh ProgressiveMeshInstance::extract() const {

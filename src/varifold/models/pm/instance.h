@@ -1,6 +1,7 @@
 // One place in a scene where a progressive mesh stands, at a level of its own.
 #pragma once
 
+#include <varifold/models/common/changed_blocks.h>
 #include <varifold/models/pm/progressive_mesh.h>
 #include <varifold/view/draw_list.h>
 #include <cstdint>
@@ -36,13 +37,13 @@ class ProgressiveMeshInstance {
     return model_->moves_vertices() ? moved_ : model_->data().mesh;
   }
 
+  /// Memory of the instance alone.
+  [[nodiscard]] std::size_t bytes() const;
+
   /// A copy of the level as a mesh of its own, with materials. O(level).
   [[nodiscard]] TriangleMesh extract() const;
 
  private:
-  // Changed indices are noted by blocks of this many.
-  static constexpr std::uint32_t kBlockBits = 12;
-
   void split_to(std::uint32_t level);
   void collapse_to(std::uint32_t level);
   void place(std::uint32_t vertex, const TriangleMesh& from, std::uint32_t index);
@@ -57,8 +58,7 @@ class ProgressiveMeshInstance {
   TriangleMesh moved_;                       // vertex attributes, where placement moves them
   std::vector<std::uint32_t> range_counts_;  // triangles of each range at the level
   std::vector<DrawRange> ranges_;
-  std::vector<std::uint8_t> changed_blocks_, changed_vertex_blocks_;
-  std::vector<ElementRange> changed_indices_, changed_vertices_;
+  ChangedBlocks changed_indices_, changed_vertices_;
 };
 
 }  // namespace varifold

@@ -1,5 +1,7 @@
 #include <varifold/models/pm/progressive_mesh.h>
 
+#include <varifold/models/common/extract_level.h>
+#include <varifold/models/common/level_search.h>
 #include <algorithm>
 #include <cmath>
 
@@ -36,24 +38,6 @@ std::uint32_t ProgressiveMesh::triangle_count(std::uint32_t level) const {
   return counts(level).triangles;
 }
 
-namespace {
-
-// The last level in [0, finest] for which `fits` holds; it holds up to some level and not beyond.
-template <class Fits>
-std::uint32_t last_level(std::uint32_t finest, const Fits& fits) {
-  std::uint32_t low = 0, high = finest;
-  while (low < high) {
-    const std::uint32_t middle = low + (high - low + 1) / 2;
-    if (fits(middle))
-      low = middle;
-    else
-      high = middle - 1;
-  }
-  return low;
-}
-
-}  // namespace
-
 std::uint32_t ProgressiveMesh::level_for_triangles(std::uint32_t count) const {
   return last_level(finest_level(), [&](std::uint32_t k) { return triangle_count(k) <= count; });
 }
@@ -81,20 +65,11 @@ std::uint32_t ProgressiveMesh::ancestor(std::uint32_t vertex, std::uint32_t leve
   return vertex;
 }
 
-namespace {
-
-std::size_t mesh_bytes(const TriangleMesh& mesh) {
-  return mesh.positions.size() * sizeof(Vec3) + mesh.normals.size() * sizeof(Vec3) +
-         mesh.texcoords.size() * sizeof(Vec2) + mesh.colors.size() * sizeof(Color) +
-         mesh.indices.size() * sizeof(std::uint32_t);
-}
-
-}  // namespace
-
 std::size_t ProgressiveMesh::bytes() const {
   const auto words = data_.slots.size() + data_.target.size() + data_.triangle_level.size() +
                      data_.first_placed.size() + data_.placed_vertex.size() + data_.finer.size();
-  return mesh_bytes(data_.mesh) + mesh_bytes(data_.placed) +
+  return attribute_bytes(data_.mesh) + attribute_bytes(data_.placed) +
+         data_.mesh.indices.size() * sizeof(std::uint32_t) +
          data_.splits.size() * sizeof(VertexSplit) + data_.error.size() * sizeof(float) +
          words * sizeof(std::uint32_t) + checkpoints_.size() * sizeof(Counts);
 }

@@ -59,6 +59,8 @@ class ProgressiveMesh {
   explicit ProgressiveMesh(ProgressiveMeshData data);
 
   [[nodiscard]] const ProgressiveMeshData& data() const { return data_; }
+  /// The vertex attributes at full detail, materials and images.
+  [[nodiscard]] const TriangleMesh& attributes() const { return data_.mesh; }
   /// Levels run from 0, the base, to this, full detail.
   [[nodiscard]] std::uint32_t finest_level() const {
     return static_cast<std::uint32_t>(data_.splits.size());

@@ -1,7 +1,9 @@
 #include <varifold/models/pm/stream_header.h>
 
 #include <varifold/base/bytes.h>
-#include <varifold/models/pm/error_code.h>
+#include <varifold/models/common/error_code.h>
+#include <varifold/models/common/mesh_bytes.h>
+#include <varifold/models/common/section_reader.h>
 #include <cmath>
 #include <string>
 
@@ -20,94 +22,6 @@ enum Flags : std::uint32_t {
   kRanges = 32,
   kAllFlags = 63,
 };
-
-void append_string(std::vector<std::byte>& bytes, std::string_view text) {
-  append_little(bytes, static_cast<std::uint32_t>(text.size()));
-  append_text(bytes, text);
-}
-
-template <class V>
-void append_vector(std::vector<std::byte>& bytes, const V& values, int count) {
-  for (int i = 0; i < count; ++i) append_little(bytes, values[i]);
-}
-
-void append_material(std::vector<std::byte>& bytes, const Material& material) {
-  append_string(bytes, material.name);
-  append_vector(bytes, material.base_color, 4);
-  append_vector(bytes, material.emissive, 3);
-  append_little(bytes, material.metallic);
-  append_little(bytes, material.roughness);
-  append_little(bytes, static_cast<std::uint8_t>(material.double_sided ? 1 : 0));
-  append_string(bytes, material.alpha_mode);
-  append_little(bytes, material.alpha_cutoff);
-  for (const std::uint32_t image : material.textures) append_little(bytes, image);
-}
-
-// Takes values off the front of a section. After the first one that is not there all are zero.
-class SectionReader {
- public:
-  SectionReader(std::span<const std::byte> bytes, std::size_t offset)
-      : bytes_(bytes), offset_(offset) {}
-
-  template <class T>
-  T take() {
-    if (!has(sizeof(T))) return T{};
-    const T value = load<T>(bytes_.data() + at_);
-    at_ += sizeof(T);
-    return value;
-  }
-  std::span<const std::byte> take_bytes(std::uint64_t count) {
-    if (!has(count)) return {};
-    const auto taken = bytes_.subspan(at_, static_cast<std::size_t>(count));
-    at_ += static_cast<std::size_t>(count);
-    return taken;
-  }
-  std::string take_string() { return std::string(as_text(take_bytes(take<std::uint32_t>()))); }
-
-  /// A number of elements that take at least `least_size` bytes each; 0 where there is no room.
-  std::uint32_t take_count(std::size_t least_size) {
-    const auto count = take<std::uint32_t>();
-    return has(std::uint64_t{count} * least_size) ? count : 0;
-  }
-  [[nodiscard]] bool good() const { return good_; }
-  [[nodiscard]] bool at_end() const { return at_ == bytes_.size(); }
-  [[nodiscard]] tl::unexpected<Error> fault(const std::string& what) const {
-    return fail(ErrorKind::kInvalidInput, "byte " + std::to_string(offset_ + at_) + ": " + what);
-  }
-
- private:
-  bool has(std::uint64_t count) {
-    if (good_ && count > bytes_.size() - at_) good_ = false;
-    return good_;
-  }
-
-  std::span<const std::byte> bytes_;
-  std::size_t offset_;
-  std::size_t at_ = 0;
-  bool good_ = true;
-};
-
-template <class V>
-void take_vector(SectionReader& section, V& values, int count) {
-  for (int i = 0; i < count; ++i) values[i] = section.take<float>();
-}
-
-Material take_material(SectionReader& section) {
-  Material material;
-  material.name = section.take_string();
-  take_vector(section, material.base_color, 4);
-  take_vector(section, material.emissive, 3);
-  material.metallic = section.take<float>();
-  material.roughness = section.take<float>();
-  material.double_sided = section.take<std::uint8_t>() != 0;
-  material.alpha_mode = section.take_string();
-  material.alpha_cutoff = section.take<float>();
-  for (std::uint32_t& image : material.textures) image = section.take<std::uint32_t>();
-  return material;
-}
-
-constexpr std::size_t kLeastMaterial = 69;
-constexpr std::size_t kLeastImage = 3 * 4 + 8;
 
 void append_format(const AttributeFormat& format, std::vector<std::byte>& bytes) {
   append_little(bytes, static_cast<std::uint8_t>(format.position_bits));
@@ -202,20 +116,7 @@ void append_header(const StreamHeader& header, std::vector<std::byte>& bytes) {
     append_little(bytes, range.material);
     append_little(bytes, range.base_triangles);
   }
-  append_little(bytes, static_cast<std::uint32_t>(header.materials.size()));
-  for (const Material& material : header.materials) append_material(bytes, material);
-}
-
-void append_images(const std::vector<Image>& images, std::vector<std::byte>& bytes) {
-  append_little(bytes, static_cast<std::uint32_t>(images.size()));
-  for (const Image& image : images) {
-    append_string(bytes, image.name);
-    append_string(bytes, image.mime_type);
-    append_string(bytes, image.uri);
-    append_little(bytes, static_cast<std::uint64_t>(image.bytes.size()));
-    const auto* first = reinterpret_cast<const std::byte*>(image.bytes.data());
-    bytes.insert(bytes.end(), first, first + image.bytes.size());
-  }
+  append_materials(header.materials, bytes);
 }
 
 Result<StreamPreamble> read_preamble(std::span<const std::byte> bytes) {
@@ -253,33 +154,12 @@ Result<StreamHeader> read_header(std::span<const std::byte> bytes, std::size_t o
     range.material = section.take<std::uint32_t>();
     range.base_triangles = section.take<std::uint32_t>();
   }
-  const std::uint32_t materials = section.take_count(kLeastMaterial);
-  for (std::uint32_t i = 0; i < materials && section.good(); ++i)
-    header.materials.push_back(take_material(section));
+  header.materials = take_materials(section);
   if (!section.good()) return section.fault("the header ends too early");
   if (!section.at_end()) return section.fault("the header is too long");
   if (const char* fault = check_ranges(header)) return section.fault(fault);
   if (const char* fault = check_counts(header)) return section.fault(fault);
   return header;
-}
-
-Result<std::vector<Image>> read_images(std::span<const std::byte> bytes, std::size_t offset) {
-  SectionReader section(bytes, offset);
-  std::vector<Image> images;
-  const std::uint32_t count = section.take_count(kLeastImage);
-  for (std::uint32_t i = 0; i < count && section.good(); ++i) {
-    Image image;
-    image.name = section.take_string();
-    image.mime_type = section.take_string();
-    image.uri = section.take_string();
-    const auto content = section.take_bytes(section.take<std::uint64_t>());
-    const auto* first = reinterpret_cast<const std::uint8_t*>(content.data());
-    image.bytes.assign(first, first + content.size());
-    images.push_back(std::move(image));
-  }
-  if (!section.good()) return section.fault("the images end too early");
-  if (!section.at_end()) return section.fault("the images section is too long");
-  return images;
 }
 
 }  // namespace varifold::pm

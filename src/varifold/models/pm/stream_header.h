@@ -41,13 +41,10 @@ struct StreamHeader {
 
 void append_preamble(const StreamPreamble& preamble, std::vector<std::byte>& bytes);
 void append_header(const StreamHeader& header, std::vector<std::byte>& bytes);
-void append_images(const std::vector<Image>& images, std::vector<std::byte>& bytes);
 
 /// `bytes` is the section; `offset` where it stands in the stream, for messages. kInvalidInput.
 [[nodiscard]] Result<StreamPreamble> read_preamble(std::span<const std::byte> bytes);
 [[nodiscard]] Result<StreamHeader> read_header(std::span<const std::byte> bytes,
                                                std::size_t offset);
-[[nodiscard]] Result<std::vector<Image>> read_images(std::span<const std::byte> bytes,
-                                                     std::size_t offset);
 
 }  // namespace varifold::pm

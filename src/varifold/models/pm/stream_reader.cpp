@@ -1,6 +1,7 @@
 #include <varifold/models/pm/stream_reader.h>
 
-#include <varifold/models/pm/error_code.h>
+#include <varifold/models/common/error_code.h>
+#include <varifold/models/common/mesh_bytes.h>
 #include <varifold/models/pm/slot_order.h>
 #include <algorithm>
 #include <string>
@@ -68,7 +69,7 @@ Result<void> ProgressiveStreamReader::read_section(std::span<const std::byte> se
         data_.mesh.materials = header_.materials;
       });
     case Stage::kImages: {
-      auto images = pm::read_images(section, offset_);
+      auto images = read_images(section, offset_);
       if (!images) return tl::unexpected<Error>(images.error());
       data_.mesh.images = std::move(*images);
       for (const Material& material : header_.materials)

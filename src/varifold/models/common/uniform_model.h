@@ -1,0 +1,45 @@
+// What the command line, the benchmarks, the checks and the viewer ask of a model whose levels hold
+// for the whole mesh: one pair of concepts that every such model satisfies.
+#pragma once
+
+#include <varifold/mesh/triangle_mesh.h>
+#include <varifold/view/draw_list.h>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+namespace varifold {
+
+/// Immutable, shared by any number of instances and threads. Levels run from 0, the base, to
+/// finest_level(). attributes() has the vertex attributes at full detail, numbered by the sequence
+/// (level k uses a prefix), the materials and images; its indices mean nothing.
+template <class M>
+concept UniformModel = requires(const M& model, std::uint32_t number, float fraction) {
+  { model.finest_level() } -> std::same_as<std::uint32_t>;
+  { model.vertex_count(number) } -> std::same_as<std::uint32_t>;
+  { model.triangle_count(number) } -> std::same_as<std::uint32_t>;
+  { model.error(number) } -> std::same_as<float>;
+  { model.level_for_triangles(number) } -> std::same_as<std::uint32_t>;
+  { model.level_for_vertices(number) } -> std::same_as<std::uint32_t>;
+  { model.level_for_error(fraction) } -> std::same_as<std::uint32_t>;
+  { model.level_for_fraction(fraction) } -> std::same_as<std::uint32_t>;
+  { model.ancestor(number, number) } -> std::same_as<std::uint32_t>;
+  { model.attributes() } -> std::same_as<const TriangleMesh&>;
+  { model.bytes() } -> std::same_as<std::size_t>;
+};
+
+/// A cursor over the levels of a model. go_to_level() and draw_list() allocate nothing; what they
+/// leave depends on the level alone, byte for byte, not on the way to it.
+template <class I, class M>
+concept UniformInstance = UniformModel<M> && std::constructible_from<I, std::shared_ptr<const M>> &&
+    requires(I& instance, const I& constant, std::uint32_t level) {
+  { constant.model() } -> std::same_as<const M&>;
+  { constant.level() } -> std::same_as<std::uint32_t>;
+  { instance.go_to_level(level) } -> std::same_as<void>;
+  { instance.draw_list() } -> std::same_as<DrawList>;
+  { constant.extract() } -> std::same_as<TriangleMesh>;
+  { constant.bytes() } -> std::same_as<std::size_t>;
+};
+
+}  // namespace varifold

@@ -1,0 +1,35 @@
+// What every step of a sequence changes, so that it can be walked from the base up.
+#pragma once
+
+#include <varifold/simplify/collapse_sequence.h>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace varifold {
+
+/// The changes of all steps at once: about 20 bytes a vertex for the changes and 12 a triangle.
+/// Slot 3 t + c is corner c of triangle t.
+class SequenceHistory {
+ public:
+  /// One replay of the sequence. O(n).
+  explicit SequenceHistory(const DetailedMesh& detailed);
+
+  /// The slots that go from target[v] to v where v appears; v is no vertex of the base.
+  [[nodiscard]] std::span<const std::uint32_t> changed(std::uint32_t v) const {
+    const std::uint32_t i = v - first_vertex_;
+    return {changed_.data() + changed_begin_[i], changed_begin_[i + 1] - changed_begin_[i]};
+  }
+  /// The triangles that the split from `level` adds, ascending.
+  [[nodiscard]] std::span<const std::uint32_t> added(std::uint32_t level) const {
+    return {added_.data() + added_begin_[level], added_begin_[level + 1] - added_begin_[level]};
+  }
+  /// Per slot, its vertex when its triangle appears: for triangles of the base at level 0.
+  [[nodiscard]] const std::vector<std::uint32_t>& first_corners() const { return corners_; }
+
+ private:
+  std::uint32_t first_vertex_ = 0;
+  std::vector<std::uint32_t> changed_, changed_begin_, added_, added_begin_, corners_;
+};
+
+}  // namespace varifold

@@ -1,0 +1,62 @@
+#include <varifold/strip/triangle_strips.h>
+
+namespace varifold {
+
+namespace {
+
+void append_joint(std::uint32_t first, StripJoin join, std::size_t range_begin,
+                  std::vector<std::uint32_t>& indices) {
+  if (join == StripJoin::kRestart) {
+    indices.push_back(kStripRestart);
+    return;
+  }
+  // Every strip begins at an even place, so that the first triangle keeps its orientation.
+  const std::uint32_t last = indices.back();
+  indices.push_back(last);
+  if ((indices.size() - range_begin) % 2 == 0) indices.push_back(last);
+  indices.push_back(first);
+}
+
+}  // namespace
+
+JoinedStrips join_strips(const TriangleStrips& strips, const TriangleMesh& mesh, StripJoin join) {
+  JoinedStrips joined;
+  joined.indices.reserve(strips.indices.size() + 4 * std::size_t{strips.count()});
+  const std::size_t range_count = mesh.ranges.empty() ? 1 : mesh.ranges.size();
+  std::vector<std::vector<std::uint32_t>> strips_of(range_count);
+  for (std::uint32_t s = 0; s < strips.count(); ++s) strips_of[strips.range[s]].push_back(s);
+  for (std::size_t r = 0; r < range_count; ++r) {
+    const std::size_t begin = joined.indices.size();
+    for (const std::uint32_t s : strips_of[r]) {
+      const auto strip = strips.strip(s);
+      if (strip.empty()) continue;
+      if (joined.indices.size() > begin) append_joint(strip[0], join, begin, joined.indices);
+      joined.indices.insert(joined.indices.end(), strip.begin(), strip.end());
+    }
+    if (joined.indices.size() == begin) continue;
+    joined.ranges.push_back({static_cast<std::uint32_t>(begin),
+                             static_cast<std::uint32_t>(joined.indices.size() - begin),
+                             Primitive::kStrips,
+                             mesh.ranges.empty() ? 0 : mesh.ranges[r].material});
+  }
+  return joined;
+}
+
+std::vector<std::uint32_t> triangles_of(const TriangleStrips& strips) {
+  std::vector<std::uint32_t> indices;
+  std::uint32_t range_count = 0;
+  for (const std::uint32_t r : strips.range) range_count = r >= range_count ? r + 1 : range_count;
+  for (std::uint32_t r = 0; r < range_count; ++r) {
+    for (std::uint32_t s = 0; s < strips.count(); ++s) {
+      if (strips.range[s] != r) continue;
+      const auto strip = strips.strip(s);
+      for (std::size_t i = 0; i + 2 < strip.size(); ++i) {
+        const auto corners = strip_triangle(strip, i);
+        if (!is_degenerate(corners)) indices.insert(indices.end(), corners.begin(), corners.end());
+      }
+    }
+  }
+  return indices;
+}
+
+}  // namespace varifold
