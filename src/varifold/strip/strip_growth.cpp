@@ -3,12 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <utility>
 
 namespace varifold {
 
-StripGrowth::StripGrowth(const DetailedMesh& detailed, const SequenceHistory& history)
-    : sequence_(detailed.sequence), history_(history), corners_(history.first_corners()) {
+StripGrowth::StripGrowth(const DetailedMesh& detailed, const SequenceHistory& history,
+                         FirstCorners first)
+    : sequence_(detailed.sequence),
+      history_(history),
+      corners_(history.first_corners()),
+      first_(std::move(first)) {
   const std::uint32_t triangles = detailed.mesh.triangle_count();
+  if (first_.empty()) first_.assign(triangles, kAnyCorner);
+  learned_ = first_;
   neighbor_.assign(corners_.size(), kNone);
   block_of_.assign(triangles, kNone);
   if (detailed.mesh.ranges.size() > 1) {
@@ -98,8 +105,8 @@ void StripGrowth::update_links() {
     open_.push_back(edge);
   };
   for (const Corner& moved : moved_) {
-    for (const Edge edge : {Edge{moved.triangle, moved.corner},
-                            Edge{moved.triangle, (moved.corner + 2) % 3}}) {
+    for (const Edge edge :
+         {Edge{moved.triangle, moved.corner}, Edge{moved.triangle, (moved.corner + 2) % 3}}) {
       const std::uint32_t other = neighbor_[3 * edge.triangle + edge.edge];
       if (other != kNone && across(edge).triangle != kNone) continue;
       open(edge);

@@ -1,7 +1,8 @@
-// Strips that grow along a collapse sequence: made for the base mesh, then changed by every split so
-// that they stay long at all levels.
+// Strips that grow along a collapse sequence: made for the base mesh, then changed by every split
+// so that they stay long at all levels.
 //
-// Based on: the idea of building strips from the coarsest level on, [Ripolles2005], and the strips of
+// Based on: the idea of building strips from the coarsest level on, [Ripolles2005], and the strips
+// of
 //   [Ramos2008] chapter 4, whose degenerate runs this turns round: the run that a collapse would
 //   leave behind is where a split puts its new triangle.
 // Differs: strips lie in blocks of a bounded number of slots, divided by restarts. They may be
@@ -24,16 +25,16 @@ struct StripChange {
     kSet,        ///< slot becomes `value`, a new vertex; before it had the target of that vertex
     kDuplicate,  ///< the slots slot, slot + 1 are repeated after them
     kInsert,     ///< `value`, a vertex or a restart, comes before the slot
-    kOpen,       ///< a strip of one triangle after the last slot; see OpenOrder
+    kOpen,       ///< a strip of one triangle after the last slot; see below
     kAssign,     ///< the slot, a copy of the one after it, becomes `value`
     kRotate,     ///< the slots slot, slot + 1, slot + 2 move left by `detail`
     kReverse,    ///< the order of `detail` slots from `slot` on is turned round
     kSplit,      ///< the slots from `slot` on go to a new block; see SplitWay
     kNewBlock    ///< a new block, empty, for the material range `value`
   };
-  /// The corners of the new triangle: a new vertex, its target and `value`, in one of two orders;
-  /// `slot` is where it begins, after a restart unless the block was empty.
-  enum OpenOrder : std::uint8_t { kNewFirst, kTargetFirst };
+  /// kOpen: `slot` is where the triangle begins, after a restart unless the block was empty. It is
+  /// a new vertex, its target and `value`, in one of six orders: `detail` is twice the place of
+  /// `value`, and one more where the target comes before the new vertex.
   /// Between two strips, the restart before `slot` goes; inside a strip its first two slots stay in
   /// the old block too.
   enum SplitWay : std::uint8_t { kBetween, kInside };
@@ -54,8 +55,19 @@ class StripGrowth {
  public:
   static constexpr std::uint32_t kMaxSlots = 64;
 
-  /// The base, in strips. `detailed` and `history` must outlive this.
-  StripGrowth(const DetailedMesh& detailed, const SequenceHistory& history);
+  /// Per triangle, its corner that comes first when a strip is opened with it; kAnyCorner where
+  /// that does not matter. A strip of one triangle must turn before it can grow in some directions;
+  /// what one walk learns saves the next one these changes.
+  using FirstCorners = std::vector<std::uint8_t>;
+  static constexpr std::uint8_t kAnyCorner = 3;
+
+  /// The base, in strips. `detailed` and `history` must outlive this. `first` is empty or what
+  /// another walk of the same sequence has learned; all else is the same with it and without it.
+  StripGrowth(const DetailedMesh& detailed, const SequenceHistory& history,
+              FirstCorners first = {});
+
+  /// What has been learned so far.
+  [[nodiscard]] const FirstCorners& first_corners() const { return learned_; }
 
   [[nodiscard]] std::uint32_t level() const { return level_; }
   [[nodiscard]] std::uint32_t block_count() const {
@@ -134,6 +146,7 @@ class StripGrowth {
   [[nodiscard]] Placement placement_at(std::uint32_t triangle, std::uint32_t edge) const;
   [[nodiscard]] bool place(std::uint32_t triangle, const Placement& placement);
   void open(std::uint32_t triangle);
+  void learn_first_corner(std::uint32_t triangle, std::uint32_t vertex);
   [[nodiscard]] std::uint32_t block_for(std::uint32_t triangle);
 
   /// Makes room for `slots` more in a block by splitting it; false where it had the room.
@@ -157,11 +170,12 @@ class StripGrowth {
   std::uint32_t level_ = 0;
   std::vector<Block> blocks_;
   std::vector<BlockSplit> splits_;
-  std::vector<std::uint32_t> corners_;      // at the present level
-  std::vector<std::uint32_t> neighbor_;     // per edge (corner e to corner e + 1)
-  std::vector<std::uint32_t> block_of_;     // per triangle
-  std::vector<std::uint32_t> range_of_;     // per triangle, where there are several ranges
-  std::vector<std::uint32_t> last_block_;   // per range: where a lone triangle may go
+  std::vector<std::uint32_t> corners_;     // at the present level
+  std::vector<std::uint32_t> neighbor_;    // per edge (corner e to corner e + 1)
+  std::vector<std::uint32_t> block_of_;    // per triangle
+  std::vector<std::uint32_t> range_of_;    // per triangle, where there are several ranges
+  std::vector<std::uint32_t> last_block_;  // per range: where a lone triangle may go
+  FirstCorners first_, learned_;
   std::vector<StripChange> changes_;
   std::vector<Corner> moved_;
   std::vector<Edge> open_;

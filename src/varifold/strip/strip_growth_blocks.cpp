@@ -17,10 +17,10 @@ bool same_triangle(const std::array<std::uint32_t, 3>& a, const std::uint32_t* b
 
 }  // namespace
 
-// Changes that are asked for per triangle become changes of slots. A slot that two triangles use may
-// get only one vertex: where they ask for different ones, the strip crosses the edge that opens, and
-// the slots of that edge are repeated, which makes room for the new triangle in between; or the
-// strip is cut there.
+// Changes that are asked for per triangle become changes of slots. A slot that two triangles use
+// may get only one vertex: where they ask for different ones, the strip crosses the edge that
+// opens, and the slots of that edge are repeated, which makes room for the new triangle in between;
+// or the strip is cut there.
 void StripGrowth::change_block(std::uint32_t b, std::span<const Corner> corners) {
   // Splitting a block for room moves some of its triangles to the next new block.
   std::array<std::uint32_t, 8> pieces{b};
@@ -109,8 +109,8 @@ std::uint32_t StripGrowth::claim_new_triangles(std::uint32_t b) {
     if (block.slots[i] == kStripRestart) begin = i + 1;
     if (block.triangle[i] != kNone || i < begin) continue;
     const auto corners = strip_triangle({block.slots + begin, block.count - begin}, i - begin);
-    if (corners[2] == kStripRestart || corners[1] == kStripRestart ||
-        corners[0] == kStripRestart || is_degenerate(corners))
+    if (corners[2] == kStripRestart || corners[1] == kStripRestart || corners[0] == kStripRestart ||
+        is_degenerate(corners))
       continue;
     const auto found = std::find_if(unplaced_.begin(), unplaced_.end(), [&](std::uint32_t t) {
       return same_triangle(corners, &corners_[3 * t]);
@@ -159,7 +159,8 @@ bool StripGrowth::make_room(std::uint32_t b, std::uint32_t slots) {
   return true;
 }
 
-// Where to split a full block: between strips if that is not too far from the middle, else inside one.
+// Where to split a full block: between strips if that is not too far from the middle, else inside
+// one.
 std::uint32_t StripGrowth::best_split(const Block& block) const {
   constexpr std::uint32_t kCostOfCut = 20;
   std::uint32_t best = 0, begin = 0;

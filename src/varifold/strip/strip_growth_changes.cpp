@@ -56,7 +56,9 @@ void StripGrowth::apply(const StripChange& change) {
   };
   switch (change.kind) {
     case StripChange::kSet:
-    case StripChange::kAssign: *slot = change.value; break;
+    case StripChange::kAssign:
+      *slot = change.value;
+      break;
     case StripChange::kDuplicate:
       move(2);
       std::copy_n(slot + 2, 2, slot);
@@ -69,18 +71,23 @@ void StripGrowth::apply(const StripChange& change) {
       move(block.count > 0 ? 4 : 3);
       std::uint32_t* first = slot;
       if (change.slot > 0) *first++ = kStripRestart;
+      const std::uint32_t place = change.detail / 2;
+      const bool target_first = change.detail % 2 == 1;
       const std::uint32_t target = sequence_.target[change.vertex];
-      first[0] = change.detail == StripChange::kNewFirst ? change.vertex : target;
-      first[1] = change.detail == StripChange::kNewFirst ? target : change.vertex;
-      first[2] = change.value;
+      first[place] = change.value;
+      first[place == 0 ? 1 : 0] = target_first ? target : change.vertex;
+      first[place == 2 ? 1 : 2] = target_first ? change.vertex : target;
       break;
     }
-    case StripChange::kRotate: std::rotate(slot, slot + change.detail, slot + 3); break;
+    case StripChange::kRotate:
+      std::rotate(slot, slot + change.detail, slot + 3);
+      break;
     case StripChange::kReverse:
       std::reverse(slot, slot + change.detail);
       std::reverse(triangle, triangle + change.detail - 2);
       break;
-    default: break;
+    default:
+      break;
   }
   block.most = std::max(block.most, block.count);
 }
@@ -94,8 +101,7 @@ void StripGrowth::split_block(const StripChange& change) {
   std::copy_n(left.slots + at, right.count, right.slots);
   std::fill_n(right.triangle, right.count, kNone);
   for (std::uint32_t i = 0; i < right.count; ++i)
-    if (left.triangle[at + i] != kNone)
-      set_triangle(block_count() - 1, i, left.triangle[at + i]);
+    if (left.triangle[at + i] != kNone) set_triangle(block_count() - 1, i, left.triangle[at + i]);
   left.count = change.detail == StripChange::kBetween ? at - 1 : at + 2;
   std::fill(left.triangle + std::min(at, left.count), left.triangle + kMaxSlots, kNone);
   splits_.push_back({left.most, block_count() - 1, left.last_split});

@@ -1,4 +1,5 @@
-// Where new triangles go that no strip crosses: to the end of a strip, or into a strip of their own.
+// Where new triangles go that no strip crosses: to the end of a strip, or into a strip of their
+// own.
 #include <varifold/strip/strip_growth.h>
 
 #include <algorithm>
@@ -85,6 +86,7 @@ bool StripGrowth::place(std::uint32_t triangle, const Placement& placement) {
   switch (placement.way) {
     case Placement::kRotated:
       apply({StripChange::kRotate, at(i), at(placement.rotation), b});
+      learn_first_corner(blocks_[b].triangle[i], blocks_[b].slots[i]);
       break;
     case Placement::kTailTurn: {
       const std::uint32_t last = blocks_[b].triangle[i];
@@ -108,11 +110,18 @@ bool StripGrowth::place(std::uint32_t triangle, const Placement& placement) {
       apply({StripChange::kAssign, at(i - 1), 0, b, placement.value});
       set_triangle(b, i - 1, triangle);
       return true;
-    default: break;
+    default:
+      break;
   }
   apply({StripChange::kInsert, at(i + 3), 0, b, placement.value});
   set_triangle(b, i + 1, triangle);
   return true;
+}
+
+void StripGrowth::learn_first_corner(std::uint32_t triangle, std::uint32_t vertex) {
+  for (std::uint8_t c = 0; c < 3; ++c)
+    if (corners_[3 * triangle + c] == vertex && learned_[triangle] == kAnyCorner)
+      learned_[triangle] = c;
 }
 
 // A block with room for a strip of one triangle: one that holds a neighbour, else any.
@@ -140,21 +149,25 @@ void StripGrowth::open(std::uint32_t triangle) {
   const std::uint32_t b = block_for(triangle);
   const auto end = static_cast<std::uint8_t>(blocks_[b].count);
   const std::uint32_t* const corners = &corners_[3 * triangle];
-  for (std::uint32_t c = 0; c < 3; ++c) {
-    // The new vertex and its target stand beside each other, in one order or the other.
-    for (const bool new_first : {true, false}) {
-      const std::uint32_t vertex = corners[new_first ? c : (c + 1) % 3];
-      const std::uint32_t target = corners[new_first ? (c + 1) % 3 : c];
-      if (sequence_.target[vertex] != target || vertex < sequence_.vertices[level_]) continue;
-      apply({StripChange::kOpen, end, new_first ? StripChange::kNewFirst : StripChange::kTargetFirst,
-             b, corners[(c + 2) % 3], vertex});
+  const std::uint32_t first = first_[triangle] == kAnyCorner ? 0 : first_[triangle];
+  const std::array<std::uint32_t, 3> slots{corners[first], corners[(first + 1) % 3],
+                                           corners[(first + 2) % 3]};
+  for (std::uint32_t place = 0; place < 3; ++place) {
+    // The other two: a new vertex and its target, in one order or the other.
+    const std::uint32_t a = slots[place == 0 ? 1 : 0], c = slots[place == 2 ? 1 : 2];
+    for (const bool target_first : {false, true}) {
+      const std::uint32_t vertex = target_first ? c : a;
+      if (vertex < sequence_.vertices[level_] || sequence_.target[vertex] != (target_first ? a : c))
+        continue;
+      apply({StripChange::kOpen, end, static_cast<std::uint8_t>(2 * place + (target_first ? 1 : 0)),
+             b, slots[place], vertex});
       set_triangle(b, blocks_[b].count - 3, triangle);
       return;
     }
   }
   if (end > 0) apply({StripChange::kInsert, end, 0, b, kStripRestart});
   for (std::uint32_t c = 0; c < 3; ++c)
-    apply({StripChange::kInsert, static_cast<std::uint8_t>(blocks_[b].count), 0, b, corners[c]});
+    apply({StripChange::kInsert, static_cast<std::uint8_t>(blocks_[b].count), 0, b, slots[c]});
   set_triangle(b, blocks_[b].count - 3, triangle);
 }
 

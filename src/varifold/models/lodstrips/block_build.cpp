@@ -15,24 +15,15 @@ using Bytes = std::vector<std::uint8_t>;
 // The changes of one split as bytes.
 class StepWriter {
  public:
-  StepWriter(const CollapseSequence& sequence, std::uint32_t id_bytes)
-      : sequence_(sequence), id_bytes_(id_bytes) {}
+  StepWriter(const CollapseSequence& sequence, blocks::WordFormat format)
+      : sequence_(sequence), format_(format) {}
 
   void write(std::uint32_t level, std::span<const StripChange> changes, Bytes& records) {
     first_ = sequence_.vertices[level];
     end_ = sequence_.vertices[level + 1];
     groups_.clear();
     for (const StripChange& change : changes) append(group_of(change), change);
-    for (std::size_t i = 0; i < groups_.size(); ++i) {
-      const Group& group = groups_[i];
-      const bool last = i + 1 == groups_.size();
-      const std::uint32_t id = group.block | (last ? blocks::last_bit(id_bytes_) : 0);
-      for (std::uint32_t b = 0; b < id_bytes_; ++b)
-        records.push_back(static_cast<std::uint8_t>(id >> (8 * b)));
-      assert(group.bytes.size() < 256);
-      if (!last) records.push_back(static_cast<std::uint8_t>(group.bytes.size()));
-      records.insert(records.end(), group.bytes.begin(), group.bytes.end());
-    }
+    for (const Group& group : groups_) write_group(group, records);
   }
 
  private:
@@ -40,8 +31,39 @@ class StepWriter {
     std::uint32_t block = 0;
     std::uint32_t vertex = 0;  // that the next operation speaks of
     bool makes_block = false;
-    Bytes bytes;
+    Bytes duplicates, sets;
+    Bytes bytes;  // of the rest
   };
+
+  void write_group(const Group& group, Bytes& records) const {
+    // The two most frequent rests are written the short way.
+    const Bytes& rest = group.bytes;
+    const bool inserts = !rest.empty() && (rest[0] & 3u) == blocks::kInsertTarget;
+    auto slot = static_cast<std::uint8_t>(rest.empty() ? 0 : rest[0] >> 2u);
+    blocks::Rest way = rest.empty() ? blocks::kNothing : blocks::kMixed;
+    if (inserts && rest.size() == 1) way = blocks::kTargetInserted;
+    if (inserts && rest.size() == 2 && rest[1] == code(blocks::kSet, slot))
+      way = blocks::kVertexInserted;
+    const bool opens = rest.size() == 3 && rest[0] == code(blocks::kExtended, blocks::kOpenCopy);
+    if (opens) {
+      way = rest[1] < 4 ? blocks::kOpened : blocks::kOpenedHigh;
+      slot = static_cast<std::uint8_t>(rest[1] % 4 | rest[2] << 2u);
+    }
+    const auto high = static_cast<std::uint32_t>(group.duplicates.size() | group.sets.size() << 2u |
+                                                 unsigned{way} << 5u);
+    const std::uint32_t word = group.block | high << format_.id_bits;
+    for (std::uint32_t b = 0; b < format_.bytes; ++b)
+      records.push_back(static_cast<std::uint8_t>(word >> (8 * b)));
+    records.insert(records.end(), group.duplicates.begin(), group.duplicates.end());
+    records.insert(records.end(), group.sets.begin(), group.sets.end());
+    if (way == blocks::kMixed) {
+      assert(rest.size() < 256);
+      records.push_back(static_cast<std::uint8_t>(rest.size()));
+      records.insert(records.end(), rest.begin(), rest.end());
+    } else if (way != blocks::kNothing) {
+      records.push_back(slot);
+    }
+  }
 
   static bool makes_block(const StripChange& change) {
     return change.kind == StripChange::kSplit || change.kind == StripChange::kNewBlock;
@@ -58,7 +80,7 @@ class StepWriter {
       }
       if (group.makes_block && makes_block(change)) break;
     }
-    groups_.push_back({change.block, first_, false, {}});
+    groups_.push_back({change.block, first_, false, {}, {}, {}});
     return groups_.back();
   }
 
@@ -97,10 +119,10 @@ class StepWriter {
 
   // A value that is copied from a slot where it stands in one.
   static void copy_or_value(Group& group, const StripChange& change, blocks::Extended copy,
-                            blocks::Extended as_value, bool with_slot) {
+                            blocks::Extended as_value, std::uint8_t before) {
     const bool has_copy = change.from != StripChange::kNoSlot;
     extended(group, has_copy ? copy : as_value);
-    if (with_slot) group.bytes.push_back(change.slot);
+    group.bytes.push_back(before);
     if (has_copy)
       group.bytes.push_back(change.from);
     else
@@ -116,7 +138,7 @@ class StepWriter {
     const std::uint32_t vertex =
         is_new(change.value) ? change.value : vertex_to(change.value, group.vertex);
     if (vertex == kNone)
-      return copy_or_value(group, change, blocks::kInsertCopy, blocks::kInsertValue, true);
+      return copy_or_value(group, change, blocks::kInsertCopy, blocks::kInsertValue, change.slot);
     select(group, vertex);
     group.bytes.push_back(code(blocks::kInsertTarget, change.slot));
     if (vertex == change.value) group.bytes.push_back(code(blocks::kSet, change.slot));
@@ -125,26 +147,36 @@ class StepWriter {
   void append(Group& group, const StripChange& change) const {
     switch (change.kind) {
       case StripChange::kSet:
+        if (group.bytes.empty() && change.value == first_ &&
+            group.sets.size() < blocks::WordFormat::kMostSets) {
+          group.sets.push_back(change.slot);
+          return;
+        }
         select(group, change.value);
         group.bytes.push_back(code(blocks::kSet, change.slot));
         return;
       case StripChange::kDuplicate:
+        if (group.bytes.empty() && group.sets.empty() &&
+            group.duplicates.size() < blocks::WordFormat::kMostDuplicates) {
+          group.duplicates.push_back(change.slot);
+          return;
+        }
         group.bytes.push_back(code(blocks::kDuplicate, change.slot));
         return;
-      case StripChange::kInsert: return insert(group, change);
+      case StripChange::kInsert:
+        return insert(group, change);
       case StripChange::kOpen: {
         select(group, change.vertex);
-        const bool new_first = change.detail == StripChange::kNewFirst;
-        return copy_or_value(group, change,
-                             new_first ? blocks::kOpenNewCopy : blocks::kOpenTargetCopy,
-                             new_first ? blocks::kOpenNewValue : blocks::kOpenTargetValue, false);
+        return copy_or_value(group, change, blocks::kOpenCopy, blocks::kOpenValue, change.detail);
       }
       case StripChange::kAssign:
-        return copy_or_value(group, change, blocks::kAssignCopy, blocks::kAssignValue, true);
+        return copy_or_value(group, change, blocks::kAssignCopy, blocks::kAssignValue, change.slot);
       case StripChange::kRotate:
         extended(group, change.detail == 1 ? blocks::kRotateOne : blocks::kRotateTwo);
         break;
-      case StripChange::kReverse: extended(group, blocks::kReverse); break;
+      case StripChange::kReverse:
+        extended(group, blocks::kReverse);
+        break;
       case StripChange::kSplit:
         group.makes_block = true;
         extended(group, change.detail == StripChange::kBetween ? blocks::kSplitBetween
@@ -160,7 +192,7 @@ class StepWriter {
   }
 
   const CollapseSequence& sequence_;
-  std::uint32_t id_bytes_;
+  blocks::WordFormat format_;
   std::uint32_t first_ = 0, end_ = 0;
   std::vector<Group> groups_;
 };
@@ -181,9 +213,6 @@ void append_step_size(std::uint32_t level, std::size_t bytes, BlockForm& form) {
   form.long_steps.push_back(static_cast<std::uint32_t>(bytes));
 }
 
-// The most blocks that numbers of so many bytes can name, beside the bit of the last group.
-std::uint32_t blocks_of(std::uint32_t id_bytes) { return blocks::last_bit(id_bytes); }
-
 }  // namespace
 
 BlockForm build_block_form(const DetailedMesh& detailed) {
@@ -191,22 +220,29 @@ BlockForm build_block_form(const DetailedMesh& detailed) {
   assert(!sequence.moves_vertices());
   const SequenceHistory history(detailed);
   BlockForm form;
-  // Two bytes name the blocks of about 400,000 vertices; where they do not, begin again with more.
-  for (;; ++form.id_bytes) {
+  StripGrowth::FirstCorners first_corners;
+  {
     StripGrowth growth(detailed, history);
+    while (growth.level() < sequence.step_count()) growth.split();
+    first_corners = growth.first_corners();
+  }
+  // Three bytes name the blocks of 800,000 vertices; where they do not, begin again with four.
+  for (;; ++form.word_bytes) {
+    const blocks::WordFormat format(form.word_bytes);
+    StripGrowth growth(detailed, history, first_corners);
     BlockForm made;
-    made.id_bytes = form.id_bytes;
+    made.word_bytes = form.word_bytes;
     copy_base(growth, made);
-    StepWriter writer(sequence, made.id_bytes);
+    StepWriter writer(sequence, format);
     made.step_bytes.reserve(sequence.step_count());
     for (std::uint32_t level = 0; level < sequence.step_count(); ++level) {
       growth.split();
       const std::size_t before = made.records.size();
       writer.write(level, growth.changes(), made.records);
       append_step_size(level, made.records.size() - before, made);
-      if (growth.block_count() > blocks_of(made.id_bytes)) break;
+      if (growth.block_count() > format.block_limit()) break;
     }
-    if (growth.block_count() > blocks_of(made.id_bytes)) continue;
+    if (growth.block_count() > format.block_limit()) continue;
     StripGrowth::Layout layout = growth.layout();
     made.first = std::move(layout.first);
     made.buffer_size = layout.size;

@@ -2,6 +2,7 @@
 
 #include <varifold/models/lodstrips/block_records.h>
 #include <algorithm>
+#include <array>
 #include <numeric>
 
 namespace varifold {
@@ -36,8 +37,7 @@ class Checker {
 
  private:
   const char* check_steps() {
-    if (form_.id_bytes < 2 || form_.id_bytes > 4) return "unknown size of block numbers";
-    if (form_.first.size() >= blocks::last_bit(form_.id_bytes)) return "too many blocks";
+    if (form_.word_bytes != 3 && form_.word_bytes != 4) return "unknown size of block numbers";
     for (const std::uint32_t first : form_.first)
       if (first >= form_.buffer_size) return "a block begins behind the buffer";
     if (form_.long_steps.size() % 2 != 0) return "a long step has no size";
@@ -54,7 +54,8 @@ class Checker {
       next_long += 2;
     }
     if (next_long != form_.long_steps.size()) return "there are more long steps than steps";
-    if (sum != form_.records.size() - BlockForm::kPadding) return "the sizes of the steps are wrong";
+    if (sum != form_.records.size() - BlockForm::kPadding)
+      return "the sizes of the steps are wrong";
     return nullptr;
   }
 
@@ -74,30 +75,48 @@ class Checker {
   }
 
   bool play(const std::uint8_t* at, const std::uint8_t* end) {
-    const std::uint32_t last = blocks::last_bit(form_.id_bytes);
+    const blocks::WordFormat format(form_.word_bytes);
     while (at < end) {
-      if (end - at < static_cast<std::ptrdiff_t>(form_.id_bytes)) return false;
-      const std::uint32_t id = blocks::load_id(at, form_.id_bytes);
-      at += form_.id_bytes;
-      const std::uint8_t* group_end = end;
-      if ((id & last) == 0) {
-        if (at == end || end - at - 1 < *at) return false;
-        group_end = at + 1 + *at;
-        ++at;
-      } else if (end - at > 255) {
-        return false;
-      }
-      if (!play_group(id & (last - 1), at, group_end)) return false;
+      if (end - at < static_cast<std::ptrdiff_t>(format.bytes)) return false;
+      const blocks::Group group(at, format);
+      at += format.bytes;
+      const std::uint32_t least = group.duplicates + group.sets + (group.rest == 0 ? 0 : 1);
+      if (end - at < static_cast<std::ptrdiff_t>(least)) return false;
+      const std::uint8_t* const group_end = group.end(at);
+      if (group_end > end || !play_group(group, at, group_end)) return false;
       at = group_end;
-      // The bit of the last group stands nowhere else, so the step ends here.
-      if ((id & last) != 0) return at == end;
     }
     return true;
   }
 
-  bool play_group(std::uint32_t block, const std::uint8_t* at, const std::uint8_t* end) {
-    block_ = block;
+  bool play_group(const blocks::Group& group, const std::uint8_t* at, const std::uint8_t* end) {
+    block_ = group.block;
     vertex_ = first_vertex_;
+    for (std::uint32_t i = 0; i < group.duplicates; ++i)
+      if (block_ >= used_ || !play_simple(blocks::kDuplicate, *at++)) return false;
+    for (std::uint32_t i = 0; i < group.sets; ++i)
+      if (block_ >= used_ || !play_simple(blocks::kSet, *at++)) return false;
+    switch (group.rest) {
+      case blocks::kNothing:
+        return true;
+      case blocks::kMixed:
+        return play_mixed(at + 1, end);
+      case blocks::kTargetInserted:
+        return block_ < used_ && play_simple(blocks::kInsertTarget, *at);
+      case blocks::kVertexInserted:
+        return block_ < used_ && play_simple(blocks::kInsertTarget, *at) &&
+               play_simple(blocks::kSet, *at);
+      case blocks::kOpened:
+      case blocks::kOpenedHigh: {
+        const std::uint32_t order = (*at & 3u) + (group.rest == blocks::kOpenedHigh ? 4 : 0);
+        return block_ < used_ && open_copy(order, *at >> 2u);
+      }
+      default:
+        return false;
+    }
+  }
+
+  bool play_mixed(const std::uint8_t* at, const std::uint8_t* end) {
     while (at < end) {
       const std::uint32_t kind = *at & 3u, detail = *at >> 2u;
       ++at;
@@ -124,7 +143,8 @@ class Checker {
         const std::uint32_t a = this->slot(slot), b = this->slot(slot + 1);
         return insert(slot + 2, a) && insert(slot + 3, b);
       }
-      default: return insert(slot, target);
+      default:
+        return insert(slot, target);
     }
   }
 
@@ -142,14 +162,14 @@ class Checker {
       case blocks::kFirst:
         vertex_ = first_vertex_;
         return true;
-      case blocks::kOpenNewCopy:
-      case blocks::kOpenTargetCopy:
-        return at[0] < count && open(what == blocks::kOpenNewCopy, slot(at[0]));
-      case blocks::kOpenNewValue:
-      case blocks::kOpenTargetValue:
-        return open(what == blocks::kOpenNewValue, blocks::load_value(at));
-      case blocks::kInsertCopy: return at[1] < count && insert(at[0], slot(at[1]));
-      case blocks::kInsertRestart: return insert(at[0], kStripRestart);
+      case blocks::kOpenCopy:
+        return open_copy(at[0], at[1]);
+      case blocks::kOpenValue:
+        return open(at[0], blocks::load_value(at + 1));
+      case blocks::kInsertCopy:
+        return at[1] < count && insert(at[0], slot(at[1]));
+      case blocks::kInsertRestart:
+        return insert(at[0], kStripRestart);
       case blocks::kInsertValue: {
         const std::uint32_t value = blocks::load_value(at + 1);
         return value < live_ && insert(at[0], value);
@@ -165,11 +185,16 @@ class Checker {
         if (std::uint32_t{at[0]} + at[1] > count) return false;
         std::reverse(&slot(at[0]), &slot(at[0]) + at[1]);
         return true;
-      case blocks::kSplitBetween: return split(at[0], false);
-      case blocks::kSplitInside: return split(at[0], true);
-      case blocks::kAssignCopy: return at[1] < count && assign(at[0], slot(at[1]));
-      case blocks::kAssignValue: return assign(at[0], blocks::load_value(at + 1));
-      default: return false;
+      case blocks::kSplitBetween:
+        return split(at[0], false);
+      case blocks::kSplitInside:
+        return split(at[0], true);
+      case blocks::kAssignCopy:
+        return at[1] < count && assign(at[0], slot(at[1]));
+      case blocks::kAssignValue:
+        return assign(at[0], blocks::load_value(at + 1));
+      default:
+        return false;
     }
   }
 
@@ -187,14 +212,22 @@ class Checker {
     return true;
   }
 
-  bool open(bool new_first, std::uint32_t value) {
-    if (value >= live_) return false;
-    const std::uint32_t target = levels_.target(vertex_);
+  bool open_copy(std::uint32_t order, std::uint32_t from) {
+    return from < counts_[block_] && open(order, slot(from));
+  }
+
+  bool open(std::uint32_t order, std::uint32_t value) {
+    if (order >= 6 || value >= live_) return false;
     std::uint32_t& count = counts_[block_];
-    // Taking it back tells the first strip of a block by the number of slots.
-    if (count > 0 && (count + 4 <= 3 || !insert(count, kStripRestart))) return false;
-    return insert(count, new_first ? vertex_ : target) &&
-           insert(count, new_first ? target : vertex_) && insert(count, value);
+    if (count > 0 && !insert(count, kStripRestart)) return false;
+    std::array<std::uint32_t, 3> slots{};
+    const std::uint32_t place = order / 2;
+    const bool target_first = order % 2 == 1;
+    const std::uint32_t target = levels_.target(vertex_);
+    slots[place] = value;
+    slots[place == 0 ? 1 : 0] = target_first ? target : vertex_;
+    slots[place == 2 ? 1 : 2] = target_first ? vertex_ : target;
+    return insert(count, slots[0]) && insert(count, slots[1]) && insert(count, slots[2]);
   }
 
   bool assign(std::uint32_t at, std::uint32_t value) {

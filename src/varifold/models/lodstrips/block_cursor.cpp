@@ -9,6 +9,52 @@ namespace varifold {
 
 namespace {
 
+// Slots are moved in chunks of this many; what a chunk covers beyond its end is put back.
+constexpr std::uint32_t kChunk = 16;
+struct Chunk {
+  std::uint32_t slots[kChunk];
+};
+Chunk load_chunk(const std::uint32_t* at) {
+  Chunk chunk;
+  std::memcpy(&chunk, at, sizeof(chunk));
+  return chunk;
+}
+void store_chunk(std::uint32_t* at, const Chunk& chunk) { std::memcpy(at, &chunk, sizeof(chunk)); }
+
+// Moves [slot, end) up by one or two; [slot, slot + by) keep what they had. Fewer branches than
+// memmove, whose time goes into finding out how little there is to move. Touches, but does not
+// change, kChunk slots before `slot`.
+template <std::uint32_t kBy>
+void move_up(std::uint32_t* slot, std::uint32_t* end) {
+  const Chunk before = load_chunk(slot + kBy - kChunk);
+  while (end > slot) {
+    end -= kChunk;
+    store_chunk(end + kBy, load_chunk(end));
+  }
+  store_chunk(slot + kBy - kChunk, before);
+}
+
+// Moves [slot + by, end) down to `slot`; the last `by` slots become restarts. Touches, but does not
+// change, kChunk slots from `end` on.
+template <std::uint32_t kBy>
+void move_down(std::uint32_t* slot, std::uint32_t* end) {
+  const Chunk behind = load_chunk(end);
+  for (; slot + kBy < end; slot += kChunk) store_chunk(slot, load_chunk(slot + kBy));
+  store_chunk(end, behind);
+  for (std::uint32_t i = 1; i <= kBy; ++i) *(end - i) = kStripRestart;
+}
+
+// One to three slots, nearly always, cost no branch: the last one is set again.
+void set_slots(std::uint32_t* slots, const std::uint8_t* at, std::uint32_t count,
+               std::uint32_t value) {
+  if (count == 0) return;
+  const std::uint32_t last = count - 1;
+  slots[at[0]] = value;
+  slots[at[std::min(1u, last)]] = value;
+  slots[at[std::min(2u, last)]] = value;
+  for (std::uint32_t i = 3; i < count; ++i) slots[at[i]] = value;
+}
+
 struct Code {
   std::uint32_t kind, detail;
   explicit Code(std::uint8_t byte) : kind(byte & 3u), detail(byte >> 2u) {}
@@ -21,11 +67,58 @@ const std::uint8_t* next_operation(const std::uint8_t* at) {
 
 }  // namespace
 
+// The block that a group changes.
+struct BlockCursor::Place {
+  DrawRange& range;
+  std::uint32_t* slots;
+
+  [[nodiscard]] std::uint32_t* end() const { return slots + range.index_count; }
+  void duplicate(std::uint32_t slot) {
+    move_up<2>(slots + slot, end());
+    range.index_count += 2;
+  }
+  void insert(std::uint32_t slot, std::uint32_t value) {
+    move_up<1>(slots + slot, end());
+    slots[slot] = value;
+    ++range.index_count;
+  }
+  void erase_one(std::uint32_t slot) {
+    move_down<1>(slots + slot, end());
+    --range.index_count;
+  }
+  void erase_two(std::uint32_t slot) {
+    move_down<2>(slots + slot, end());
+    range.index_count -= 2;
+  }
+  // A strip of one triangle after the others.
+  void open(std::uint32_t order, std::uint32_t vertex, std::uint32_t target, std::uint32_t value) {
+    std::uint32_t* to = end();
+    if (range.index_count > 0) *to++ = kStripRestart;
+    const std::uint32_t place = order / 2;
+    const bool target_first = order % 2 == 1;
+    to[place == 0 ? 1 : 0] = target_first ? target : vertex;
+    to[place == 2 ? 1 : 2] = target_first ? vertex : target;
+    to[place] = value;
+    range.index_count = static_cast<std::uint32_t>(to + 3 - slots);
+  }
+  void undo_open() { pop(range.index_count > 3 ? 4 : 3); }
+  void pop(std::uint32_t count) {
+    std::fill_n(end() - count, count, kStripRestart);
+    range.index_count -= count;
+  }
+};
+
+BlockCursor::Place BlockCursor::place(std::uint32_t block) {
+  DrawRange& range = blocks_[block];
+  changed_slots_.mark(range.first_index);
+  return {range, slots_.data() + kChunk + range.first_index};
+}
+
 BlockCursor::BlockCursor(const BlockForm& form, const LevelTable& levels,
                          const TriangleMesh& attributes, StripBuffer buffer)
     : form_(form), levels_(levels), buffer_(buffer), vertex_count_(levels.vertex_count(0)) {
-  slots_.assign(form.buffer_size, kStripRestart);
-  changed_slots_.reset(slots_.size());
+  slots_.assign(std::size_t{form.buffer_size} + 2 * kChunk, kStripRestart);
+  changed_slots_.reset(form.buffer_size);
   blocks_.resize(form.first.size());
   for (std::uint32_t b = 0; b < blocks_.size(); ++b) {
     const std::uint32_t range = form.range.empty() ? 0 : form.range[b];
@@ -37,130 +130,131 @@ BlockCursor::BlockCursor(const BlockForm& form, const LevelTable& levels,
   for (const std::uint8_t count : form.base_counts) {
     DrawRange& block = blocks_[used_blocks_++];
     block.index_count = count;
-    std::copy_n(from, count, slots_.begin() + block.first_index);
+    std::copy_n(from, count, slots_.begin() + kChunk + block.first_index);
     from += count;
   }
   if (buffer_ == StripBuffer::kInPlace) return;
-  compact_.resize(slots_.size() + blocks_.size());
+  compact_.resize(form.buffer_size + blocks_.size());
   compact_ranges_.reserve(std::max<std::size_t>(1, attributes.ranges.size()));
 }
 
 void BlockCursor::go_to_level(std::uint32_t level) {
   level = std::min(level, levels_.finest_level());
   changed_ |= level != level_;
-  while (level_ < level) split_once();
-  while (level_ > level) collapse_once();
+  if (form_.word_bytes == 3) {
+    while (level_ < level) split_once<3>();
+    while (level_ > level) collapse_once<3>();
+  } else {
+    while (level_ < level) split_once<4>();
+    while (level_ > level) collapse_once<4>();
+  }
 }
 
+template <std::uint32_t kWordBytes>
 void BlockCursor::split_once() {
   const std::uint8_t* at = form_.records.data() + cursor_;
   const std::uint32_t size = form_.size_of_step(level_);
   const std::uint8_t* const end = at + size;
-  const std::uint32_t last = blocks::last_bit(form_.id_bytes);
+  const std::uint32_t vertex = vertex_count_;
   while (at < end) {
-    const std::uint32_t id = blocks::load_id(at, form_.id_bytes);
-    at += form_.id_bytes;
-    const std::uint8_t* group_end = end;
-    if ((id & last) == 0) {
-      group_end = at + 1 + *at;
+    const blocks::Group group(at, blocks::WordFormat(kWordBytes));
+    at += kWordBytes;
+    Place place = this->place(group.block);
+    for (std::uint32_t i = 0; i < group.duplicates; ++i) place.duplicate(*at++);
+    set_slots(place.slots, at, group.sets, vertex);
+    at += group.sets;
+    if (group.rest == blocks::kNothing) continue;
+    if (group.rest == blocks::kMixed) {
+      const std::uint8_t* const rest_end = at + 1 + *at;
+      do_mixed(place, at + 1, rest_end, vertex);
+      at = rest_end;
+    } else if (group.rest >= blocks::kOpened) {
+      const std::uint32_t order = (*at & 3u) + (group.rest == blocks::kOpenedHigh ? 4 : 0);
+      place.open(order, vertex, levels_.target(vertex), place.slots[*at >> 2u]);
       ++at;
+    } else {
+      place.insert(*at++, group.rest == blocks::kVertexInserted ? vertex : levels_.target(vertex));
     }
-    do_group(id & (last - 1), at, group_end, vertex_count_);
-    at = group_end;
   }
   cursor_ += size;
   vertex_count_ += levels_.step(level_).vertices;
   ++level_;
 }
 
+template <std::uint32_t kWordBytes>
 void BlockCursor::collapse_once() {
+  constexpr auto format = [] { return blocks::WordFormat(kWordBytes); };
   --level_;
   vertex_count_ -= levels_.step(level_).vertices;
   const std::uint32_t size = form_.size_of_step(level_);
   cursor_ -= size;
-  const std::uint8_t* at = form_.records.data() + cursor_;
-  const std::uint8_t* const end = at + size;
-  const std::uint32_t last = blocks::last_bit(form_.id_bytes);
-  struct Group {
-    std::uint32_t block;
-    const std::uint8_t *begin, *at, *end;
-  };
+  const std::uint8_t* const begin = form_.records.data() + cursor_;
   // The last groups first; of a step with very many, so many at a time.
   constexpr std::size_t kMost = 16;
-  std::array<Group, kMost> groups;
-  for (const std::uint8_t* limit = end; limit > at;) {
+  std::array<const std::uint8_t*, kMost> groups;
+  for (const std::uint8_t* limit = begin + size; limit > begin;) {
     std::size_t count = 0;
-    for (const std::uint8_t* group = at; group < limit;) {
-      Group& found = groups[count++ % kMost];
-      found.begin = group;
-      const std::uint32_t id = blocks::load_id(group, form_.id_bytes);
-      found.block = id & (last - 1);
-      found.at = group + form_.id_bytes;
-      found.end = end;
-      if ((id & last) == 0) {
-        found.end = found.at + 1 + *found.at;
-        ++found.at;
-      }
-      group = found.end;
+    for (const std::uint8_t* at = begin; at < limit;) {
+      groups[count++ % kMost] = at;
+      at = blocks::Group(at, format()).end(at + kWordBytes);
     }
     for (std::size_t i = 0; i < std::min(count, kMost); ++i) {
-      const Group& group = groups[(count - 1 - i) % kMost];
-      undo_group(group.block, group.at, group.end, vertex_count_);
-      limit = group.begin;
+      limit = groups[(count - 1 - i) % kMost];
+      undo_group(blocks::Group(limit, format()), limit + kWordBytes);
     }
   }
 }
 
-void BlockCursor::do_group(std::uint32_t block, const std::uint8_t* at, const std::uint8_t* end,
+inline void BlockCursor::undo_group(const blocks::Group& group, const std::uint8_t* at) {
+  const std::uint32_t vertex = vertex_count_;
+  const std::uint8_t* const sets = at + group.duplicates;
+  const std::uint8_t* const rest = sets + group.sets;
+  Place place = this->place(group.block);
+  if (group.rest == blocks::kMixed)
+    undo_mixed(place, rest + 1, rest + 1 + *rest, vertex);
+  else if (group.rest >= blocks::kOpened)
+    place.undo_open();
+  else if (group.rest != blocks::kNothing)
+    place.erase_one(*rest);
+  const std::uint32_t target = levels_.target(vertex);
+  set_slots(place.slots, sets, group.sets, target);
+  for (std::uint32_t i = group.duplicates; i-- > 0;) place.erase_two(at[i] + 2u);
+}
+
+void BlockCursor::do_mixed(Place place, const std::uint8_t* at, const std::uint8_t* end,
                            std::uint32_t vertex) {
-  DrawRange& range = blocks_[block];
-  std::uint32_t* const slots = slots_.data() + range.first_index;
   while (at < end) {
-    const Code code(*at++);
+    const Code code(*at);
     switch (code.kind) {
-      case blocks::kSet: slots[code.detail] = vertex; break;
-      case blocks::kDuplicate: {
-        std::uint32_t* const slot = slots + code.detail;
-        std::memmove(slot + 2, slot, (range.index_count - code.detail) * sizeof(*slot));
-        range.index_count += 2;
+      case blocks::kSet:
+        place.slots[code.detail] = vertex;
         break;
-      }
-      case blocks::kInsertTarget: insert(block, code.detail, levels_.target(vertex)); break;
-      default: at = do_extended(block, at - 1, vertex); break;
+      case blocks::kDuplicate:
+        place.duplicate(code.detail);
+        break;
+      case blocks::kInsertTarget:
+        place.insert(code.detail, levels_.target(vertex));
+        break;
+      default:
+        if (code.detail == blocks::kAdvance) vertex += at[1];
+        if (code.detail == blocks::kFirst) vertex = vertex_count_;
+        do_extended(place, at, vertex);
+        break;
     }
-  }
-  mark(block);
-}
-
-void BlockCursor::undo_group(std::uint32_t block, const std::uint8_t* at, const std::uint8_t* end,
-                             std::uint32_t vertex) {
-  mark(block);
-  // Operations of one byte each can be read from the back.
-  for (const std::uint8_t* look = at; look < end; ++look)
-    if ((*look & 3u) == blocks::kExtended) return undo_mixed(block, at, end, vertex);
-  std::uint32_t* const slots = slots_.data() + blocks_[block].first_index;
-  while (end > at) {
-    const Code code(*--end);
-    if (code.kind == blocks::kSet)
-      slots[code.detail] = levels_.target(vertex);
-    else if (code.kind == blocks::kDuplicate)
-      erase(block, code.detail + 2, 2);
-    else
-      erase(block, code.detail, 1);
+    at = next_operation(at);
   }
 }
 
-void BlockCursor::undo_mixed(std::uint32_t block, const std::uint8_t* at, const std::uint8_t* end,
+void BlockCursor::undo_mixed(Place place, const std::uint8_t* at, const std::uint8_t* end,
                              std::uint32_t vertex) {
-  // No group has more bytes than this; see StepWriter.
+  // Operations are found from the front and undone from the back.
   std::array<std::uint8_t, 256> starts;
   std::array<std::uint32_t, 256> vertices;
   std::size_t count = 0;
-  const std::uint32_t first = vertex;
   for (const std::uint8_t* look = at; look < end; look = next_operation(look)) {
     const Code code(*look);
     if (code.kind == blocks::kExtended && code.detail == blocks::kAdvance) vertex += look[1];
-    if (code.kind == blocks::kExtended && code.detail == blocks::kFirst) vertex = first;
+    if (code.kind == blocks::kExtended && code.detail == blocks::kFirst) vertex = vertex_count_;
     vertices[count] = vertex;
     starts[count++] = static_cast<std::uint8_t>(look - at);
   }
@@ -169,143 +263,131 @@ void BlockCursor::undo_mixed(std::uint32_t block, const std::uint8_t* at, const 
     const Code code(*operation);
     switch (code.kind) {
       case blocks::kSet:
-        slots_[blocks_[block].first_index + code.detail] = levels_.target(vertices[count]);
+        place.slots[code.detail] = levels_.target(vertices[count]);
         break;
-      case blocks::kDuplicate: erase(block, code.detail + 2, 2); break;
-      case blocks::kInsertTarget: erase(block, code.detail, 1); break;
-      default: undo_extended(block, operation); break;
+      case blocks::kDuplicate:
+        place.erase_two(code.detail + 2);
+        break;
+      case blocks::kInsertTarget:
+        place.erase_one(code.detail);
+        break;
+      default:
+        undo_extended(place, operation);
+        break;
     }
   }
 }
 
-// One operation; returns the next one.
-const std::uint8_t* BlockCursor::do_extended(std::uint32_t block, const std::uint8_t* at,
-                                             std::uint32_t& vertex) {
-  DrawRange& range = blocks_[block];
-  std::uint32_t* const slots = slots_.data() + range.first_index;
+void BlockCursor::do_extended(Place place, const std::uint8_t* at, std::uint32_t vertex) {
+  std::uint32_t* const slots = place.slots;
   const Code code(*at++);
-  const auto open = [&](bool new_first, std::uint32_t value) {
-    if (range.index_count > 0) slots[range.index_count++] = kStripRestart;
-    const std::uint32_t target = levels_.target(vertex);
-    slots[range.index_count++] = new_first ? vertex : target;
-    slots[range.index_count++] = new_first ? target : vertex;
-    slots[range.index_count++] = value;
-  };
   switch (code.detail) {
-    case blocks::kAdvance: vertex += at[0]; break;
-    case blocks::kFirst: vertex = vertex_count_; break;
-    case blocks::kOpenNewCopy: open(true, slots[at[0]]); break;
-    case blocks::kOpenTargetCopy: open(false, slots[at[0]]); break;
-    case blocks::kOpenNewValue: open(true, blocks::load_value(at)); break;
-    case blocks::kOpenTargetValue: open(false, blocks::load_value(at)); break;
-    case blocks::kInsertCopy: insert(block, at[0], slots[at[1]]); break;
-    case blocks::kInsertRestart: insert(block, at[0], kStripRestart); break;
-    case blocks::kInsertValue: insert(block, at[0], blocks::load_value(at + 1)); break;
+    case blocks::kOpenCopy:
+      place.open(at[0], vertex, levels_.target(vertex), slots[at[1]]);
+      break;
+    case blocks::kOpenValue:
+      place.open(at[0], vertex, levels_.target(vertex), blocks::load_value(at + 1));
+      break;
+    case blocks::kInsertCopy:
+      place.insert(at[0], slots[at[1]]);
+      break;
+    case blocks::kInsertRestart:
+      place.insert(at[0], kStripRestart);
+      break;
+    case blocks::kInsertValue:
+      place.insert(at[0], blocks::load_value(at + 1));
+      break;
     case blocks::kRotateOne:
-    case blocks::kRotateTwo: {
-      std::uint32_t* const slot = slots + at[0];
-      std::rotate(slot, slot + (code.detail == blocks::kRotateOne ? 1 : 2), slot + 3);
+      std::rotate(slots + at[0], slots + at[0] + 1, slots + at[0] + 3);
       break;
-    }
-    case blocks::kReverse: std::reverse(slots + at[0], slots + at[0] + at[1]); break;
-    case blocks::kSplitBetween: split_block(block, at[0], false); break;
-    case blocks::kSplitInside: split_block(block, at[0], true); break;
-    case blocks::kAssignCopy: slots[at[0]] = slots[at[1]]; break;
-    case blocks::kAssignValue: slots[at[0]] = blocks::load_value(at + 1); break;
-    case blocks::kNewBlock: ++used_blocks_; break;
-    default: break;
+    case blocks::kRotateTwo:
+      std::rotate(slots + at[0], slots + at[0] + 2, slots + at[0] + 3);
+      break;
+    case blocks::kReverse:
+      std::reverse(slots + at[0], slots + at[0] + at[1]);
+      break;
+    case blocks::kSplitBetween:
+      split_block(place, at[0], false);
+      break;
+    case blocks::kSplitInside:
+      split_block(place, at[0], true);
+      break;
+    case blocks::kAssignCopy:
+      slots[at[0]] = slots[at[1]];
+      break;
+    case blocks::kAssignValue:
+      slots[at[0]] = blocks::load_value(at + 1);
+      break;
+    case blocks::kNewBlock:
+      ++used_blocks_;
+      break;
+    default:
+      break;
   }
-  return at + blocks::kPayload[code.detail];
 }
 
-void BlockCursor::undo_extended(std::uint32_t block, const std::uint8_t* at) {
-  DrawRange& range = blocks_[block];
-  std::uint32_t* const slots = slots_.data() + range.first_index;
+void BlockCursor::undo_extended(Place place, const std::uint8_t* at) {
+  std::uint32_t* const slots = place.slots;
   const Code code(*at++);
   switch (code.detail) {
-    case blocks::kOpenNewCopy:
-    case blocks::kOpenTargetCopy:
-    case blocks::kOpenNewValue:
-    case blocks::kOpenTargetValue: {
-      const std::uint32_t slot_count = range.index_count > 3 ? 4 : 3;
-      erase(block, range.index_count - slot_count, slot_count);
+    case blocks::kOpenCopy:
+    case blocks::kOpenValue:
+      place.undo_open();
       break;
-    }
     case blocks::kInsertCopy:
     case blocks::kInsertRestart:
-    case blocks::kInsertValue: erase(block, at[0], 1); break;
-    case blocks::kRotateOne:
-    case blocks::kRotateTwo: {
-      std::uint32_t* const slot = slots + at[0];
-      std::rotate(slot, slot + (code.detail == blocks::kRotateOne ? 2 : 1), slot + 3);
+    case blocks::kInsertValue:
+      place.erase_one(at[0]);
       break;
-    }
-    case blocks::kReverse: std::reverse(slots + at[0], slots + at[0] + at[1]); break;
-    case blocks::kSplitBetween: join_block(block, at[0], false); break;
-    case blocks::kSplitInside: join_block(block, at[0], true); break;
+    case blocks::kRotateOne:
+      std::rotate(slots + at[0], slots + at[0] + 2, slots + at[0] + 3);
+      break;
+    case blocks::kRotateTwo:
+      std::rotate(slots + at[0], slots + at[0] + 1, slots + at[0] + 3);
+      break;
+    case blocks::kReverse:
+      std::reverse(slots + at[0], slots + at[0] + at[1]);
+      break;
+    case blocks::kSplitBetween:
+      join_block(place, at[0], false);
+      break;
+    case blocks::kSplitInside:
+      join_block(place, at[0], true);
+      break;
     case blocks::kAssignCopy:
-    case blocks::kAssignValue: slots[at[0]] = slots[at[0] + 1]; break;
-    case blocks::kNewBlock: --used_blocks_; break;
-    default: break;
+    case blocks::kAssignValue:
+      slots[at[0]] = slots[at[0] + 1];
+      break;
+    case blocks::kNewBlock:
+      --used_blocks_;
+      break;
+    default:
+      break;
   }
-}
-
-void BlockCursor::insert(std::uint32_t block, std::uint32_t slot, std::uint32_t value) {
-  DrawRange& range = blocks_[block];
-  std::uint32_t* const place = slots_.data() + range.first_index + slot;
-  std::memmove(place + 1, place, (range.index_count - slot) * sizeof(*place));
-  *place = value;
-  ++range.index_count;
-}
-
-void BlockCursor::erase(std::uint32_t block, std::uint32_t slot, std::uint32_t count) {
-  DrawRange& range = blocks_[block];
-  std::uint32_t* const slots = slots_.data() + range.first_index;
-  range.index_count -= count;
-  std::memmove(slots + slot, slots + slot + count, (range.index_count - slot) * sizeof(*slots));
-  std::fill_n(slots + range.index_count, count, kStripRestart);
 }
 
 // The new block may stand where this one reached before.
-void BlockCursor::split_block(std::uint32_t block, std::uint32_t slot, bool inside) {
-  DrawRange& left = blocks_[block];
-  DrawRange& right = blocks_[used_blocks_++];
-  const std::uint32_t from = left.first_index + slot;
-  const std::uint32_t old_end = left.first_index + left.index_count;
-  right.index_count = left.index_count - slot;
+void BlockCursor::split_block(Place place, std::uint32_t slot, bool inside) {
+  DrawRange& left = place.range;
+  Place right = this->place(used_blocks_++);
+  std::uint32_t* const old_end = place.end();
+  right.range.index_count = left.index_count - slot;
   left.index_count = inside ? slot + 2 : slot - 1;
-  // What stays inside is copied before the rest moves over it.
-  std::memmove(slots_.data() + right.first_index, slots_.data() + from,
-               right.index_count * sizeof(std::uint32_t));
-  const std::uint32_t left_end = left.first_index + left.index_count;
-  for (std::uint32_t i = left_end; i < old_end; ++i)
-    if (i < right.first_index || i >= right.first_index + right.index_count)
-      slots_[i] = kStripRestart;
-  changed_slots_.mark(left.first_index, old_end - left.first_index);
-  changed_slots_.mark(right.first_index, right.index_count);
+  std::memmove(right.slots, place.slots + slot, right.range.index_count * sizeof(std::uint32_t));
+  std::uint32_t* const gap_end = std::min(right.slots, old_end);
+  if (place.end() < gap_end) std::fill(place.end(), gap_end, kStripRestart);
+  if (right.end() < old_end) std::fill(right.end(), old_end, kStripRestart);
 }
 
-void BlockCursor::join_block(std::uint32_t block, std::uint32_t slot, bool inside) {
-  DrawRange& left = blocks_[block];
-  DrawRange& right = blocks_[--used_blocks_];
-  const std::uint32_t to = left.first_index + slot;
-  const std::uint32_t right_end = right.first_index + right.index_count;
-  std::memmove(slots_.data() + to, slots_.data() + right.first_index,
-               right.index_count * sizeof(std::uint32_t));
-  if (!inside) slots_[to - 1] = kStripRestart;
-  left.index_count = slot + right.index_count;
-  const std::uint32_t end = left.first_index + left.index_count;
-  for (std::uint32_t i = std::max(end, right.first_index); i < right_end; ++i)
-    slots_[i] = kStripRestart;
-  changed_slots_.mark(left.first_index, left.index_count);
-  changed_slots_.mark(right.first_index, right.index_count);
-  right.index_count = 0;
-}
-
-void BlockCursor::mark(std::uint32_t block) {
-  const std::uint32_t first = blocks_[block].first_index;
-  changed_slots_.mark(first);
-  changed_slots_.mark(std::min(first + BlockForm::kMaxSlots, form_.buffer_size) - 1);
+void BlockCursor::join_block(Place place, std::uint32_t slot, bool inside) {
+  Place right = this->place(--used_blocks_);
+  std::uint32_t* const right_end = right.end();
+  std::memmove(place.slots + slot, right.slots, right.range.index_count * sizeof(std::uint32_t));
+  if (!inside) place.slots[slot - 1] = kStripRestart;
+  place.range.index_count = slot + right.range.index_count;
+  std::uint32_t* const rest = std::max(place.end(), right.slots);
+  if (rest < right_end) std::fill(rest, right_end, kStripRestart);
+  right.range.index_count = 0;
 }
 
 // All blocks one after the other, by material.
@@ -321,7 +403,7 @@ void BlockCursor::fill_compact() {
     for (std::uint32_t b = 0; b < used_blocks_; ++b) {
       const DrawRange& block = blocks_[b];
       if (block.index_count == 0 || (range_count > 1 && form_.range[b] != r)) continue;
-      std::memcpy(to, slots_.data() + block.first_index,
+      std::memcpy(to, slots_.data() + kChunk + block.first_index,
                   block.index_count * sizeof(std::uint32_t));
       to += block.index_count;
       *to++ = kStripRestart;
@@ -336,11 +418,15 @@ void BlockCursor::fill_compact() {
   compact_changed_ = {0, size};
 }
 
+std::span<const std::uint32_t> BlockCursor::slots() const {
+  return {slots_.data() + kChunk, form_.buffer_size};
+}
+
 void BlockCursor::fill(DrawList& list) {
   if (buffer_ == StripBuffer::kInPlace) {
-    list.indices = slots_;
+    list.indices = slots();
     list.ranges = {blocks_.data(), used_blocks_};
-    list.changed_indices = changed_slots_.take();
+    list.changed_indices = changed_slots_.take(BlockForm::kMaxSlots);
     return;
   }
   if (changed_) fill_compact();

@@ -12,8 +12,7 @@ std::size_t BlockForm::bytes() const {
          base_counts.size() + step_bytes.size() + records.size();
 }
 
-std::uint32_t BlockForm::size_of_step(std::uint32_t level) const {
-  if (step_bytes[level] != kLongStep) return step_bytes[level];
+std::uint32_t BlockForm::size_of_long_step(std::uint32_t level) const {
   std::size_t low = 0, high = long_steps.size() / 2;
   while (high - low > 1) {
     const std::size_t middle = (low + high) / 2;
@@ -34,7 +33,7 @@ void BlockForm::append_bytes(std::vector<std::byte>& bytes) const {
   append_array<std::uint8_t>(bytes, step_bytes);
   append_little(bytes, static_cast<std::uint32_t>(long_steps.size()));
   append_array<std::uint32_t>(bytes, long_steps);
-  append_little(bytes, id_bytes);
+  append_little(bytes, word_bytes);
   append_little(bytes, static_cast<std::uint64_t>(records.size() - kPadding));
   append_array(bytes, std::span<const std::uint8_t>(records).first(records.size() - kPadding));
 }
@@ -53,7 +52,7 @@ Result<BlockForm> BlockForm::take(SectionReader& section, const LevelTable& leve
   form.base_slots = section.take_array<std::uint32_t>(base_slots);
   form.step_bytes = section.take_array<std::uint8_t>(levels.finest_level());
   form.long_steps = section.take_array<std::uint32_t>(section.take_count(sizeof(std::uint32_t)));
-  form.id_bytes = section.take<std::uint32_t>();
+  form.word_bytes = section.take<std::uint32_t>();
   form.records = section.take_array<std::uint8_t>(section.take<std::uint64_t>());
   if (!section.good()) return section.fault("the blocks end too early");
   form.records.insert(form.records.end(), kPadding, 0);

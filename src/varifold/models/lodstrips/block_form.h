@@ -2,7 +2,8 @@
 //
 // Based on: [Ramos2008] chapters 4 and 5: strips, changes of strips per level, one element buffer.
 // Differs: strips come from strip/strip_growth.h, so that they are as long as fresh ones at every
-//   level; a change is a byte or two that says where in a block; undoing one needs no stored values.
+//   level; a change is a byte or two that says where in a block; undoing one needs no stored
+//   values.
 #pragma once
 
 #include <varifold/base/result.h>
@@ -14,22 +15,27 @@
 #include <varifold/view/draw_list.h>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace varifold {
 
+namespace blocks {
+struct Group;
+}
+
 /// Blocks of strips of the base, and the changes of every split as bytes; docs/formats/lodstrips.md
 /// describes them. All plain data, consistent as from build_block_form() or take().
 struct BlockForm {
-  std::vector<std::uint32_t> first;        ///< per block, its place in the index buffer
-  std::vector<std::uint32_t> range;        ///< per block, where there are several material ranges
-  std::uint32_t buffer_size = 0;           ///< indices
-  std::vector<std::uint8_t> base_counts;   ///< slots of the base's blocks, which come first
-  std::vector<std::uint32_t> base_slots;   ///< their slots
-  std::vector<std::uint8_t> step_bytes;    ///< per split; kLongStep: see long_steps
-  std::vector<std::uint32_t> long_steps;   ///< level and bytes of longer ones, in turns, ascending
-  std::vector<std::uint8_t> records;       ///< of all splits, and kPadding bytes
-  std::uint32_t id_bytes = 2;              ///< of a block's number in the records
+  std::vector<std::uint32_t> first;       ///< per block, its place in the index buffer
+  std::vector<std::uint32_t> range;       ///< per block, where there are several material ranges
+  std::uint32_t buffer_size = 0;          ///< indices
+  std::vector<std::uint8_t> base_counts;  ///< slots of the base's blocks, which come first
+  std::vector<std::uint32_t> base_slots;  ///< their slots
+  std::vector<std::uint8_t> step_bytes;   ///< per split; kLongStep: see long_steps
+  std::vector<std::uint32_t> long_steps;  ///< level and bytes of longer ones, in turns, ascending
+  std::vector<std::uint8_t> records;      ///< of all splits, and kPadding bytes
+  std::uint32_t word_bytes = 3;           ///< of the first word of a group in the records
 
   static constexpr std::uint8_t kLongStep = 255;
   static constexpr std::uint32_t kMaxSlots = 64;
@@ -37,12 +43,17 @@ struct BlockForm {
 
   [[nodiscard]] std::size_t bytes() const;
   /// The bytes of the split from `level`. O(1), O(log n) for long ones.
-  [[nodiscard]] std::uint32_t size_of_step(std::uint32_t level) const;
+  [[nodiscard]] std::uint32_t size_of_step(std::uint32_t level) const {
+    return step_bytes[level] != kLongStep ? step_bytes[level] : size_of_long_step(level);
+  }
 
   void append_bytes(std::vector<std::byte>& bytes) const;
   /// Plays all changes once, so that none can leave its block afterwards. kInvalidInput.
   [[nodiscard]] static Result<BlockForm> take(SectionReader& section, const LevelTable& levels,
                                               std::uint32_t material_range_count);
+
+ private:
+  [[nodiscard]] std::uint32_t size_of_long_step(std::uint32_t level) const;
 };
 
 /// One replay of the sequence, which must not move vertices. O(n).
@@ -68,26 +79,24 @@ class BlockCursor {
   void fill(DrawList& list);
   /// The index buffer of the blocks; what is in no block is kStripRestart. Depends on the level
   /// alone.
-  [[nodiscard]] const std::vector<std::uint32_t>& slots() const { return slots_; }
+  [[nodiscard]] std::span<const std::uint32_t> slots() const;
   [[nodiscard]] std::size_t bytes() const;
 
  private:
+  struct Place;
+  [[nodiscard]] Place place(std::uint32_t block);
+  template <std::uint32_t kWordBytes>
   void split_once();
+  template <std::uint32_t kWordBytes>
   void collapse_once();
-  void do_group(std::uint32_t block, const std::uint8_t* at, const std::uint8_t* end,
-                std::uint32_t vertex);
-  void undo_group(std::uint32_t block, const std::uint8_t* at, const std::uint8_t* end,
+  void undo_group(const blocks::Group& group, const std::uint8_t* at);
+  void do_mixed(Place place, const std::uint8_t* at, const std::uint8_t* end, std::uint32_t vertex);
+  void undo_mixed(Place place, const std::uint8_t* at, const std::uint8_t* end,
                   std::uint32_t vertex);
-  void undo_mixed(std::uint32_t block, const std::uint8_t* at, const std::uint8_t* end,
-                  std::uint32_t vertex);
-  const std::uint8_t* do_extended(std::uint32_t block, const std::uint8_t* at,
-                                  std::uint32_t& vertex);
-  void undo_extended(std::uint32_t block, const std::uint8_t* at);
-  void split_block(std::uint32_t block, std::uint32_t slot, bool inside);
-  void join_block(std::uint32_t block, std::uint32_t slot, bool inside);
-  void insert(std::uint32_t block, std::uint32_t slot, std::uint32_t value);
-  void erase(std::uint32_t block, std::uint32_t slot, std::uint32_t count);
-  void mark(std::uint32_t block);
+  void do_extended(Place place, const std::uint8_t* at, std::uint32_t vertex);
+  void undo_extended(Place place, const std::uint8_t* at);
+  void split_block(Place place, std::uint32_t slot, bool inside);
+  void join_block(Place place, std::uint32_t slot, bool inside);
   void fill_compact();
 
   const BlockForm& form_;
@@ -96,10 +105,10 @@ class BlockCursor {
   std::uint32_t level_ = 0;
   std::uint32_t vertex_count_ = 0;
   std::uint32_t used_blocks_ = 0;
-  std::size_t cursor_ = 0;  // in the records
-  std::vector<std::uint32_t> slots_;
-  std::vector<DrawRange> blocks_;  // first_index and index_count of every block
-  bool changed_ = true;            // since fill()
+  std::size_t cursor_ = 0;            // in the records
+  std::vector<std::uint32_t> slots_;  // with a few more at both ends
+  std::vector<DrawRange> blocks_;     // first_index and index_count of every block
+  bool changed_ = true;               // since fill()
   ChangedBlocks changed_slots_;
   std::vector<std::uint32_t> compact_;
   std::vector<DrawRange> compact_ranges_;

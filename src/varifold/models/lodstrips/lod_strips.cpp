@@ -68,8 +68,7 @@ std::vector<std::byte> encode_lod_strips(const LodStrips& model) {
   append_little(bytes, static_cast<std::uint32_t>(model.form_kind()));
   append_materials(model.attributes().materials, bytes);
   append_little(bytes, static_cast<std::uint32_t>(model.attributes().ranges.size()));
-  for (const MaterialRange& range : model.attributes().ranges)
-    append_little(bytes, range.material);
+  for (const MaterialRange& range : model.attributes().ranges) append_little(bytes, range.material);
   append_images(model.attributes().images, bytes);
   append_attributes(model.attributes(), bytes);
   LevelTableCoder::append(model.levels(), bytes);
