@@ -179,6 +179,7 @@ class StripGrowth {
   std::vector<StripChange> changes_;
   std::vector<Corner> moved_;
   std::vector<Edge> open_;
+  std::vector<std::uint32_t> pieces_;    // blocks that a step has made of one
   std::vector<std::uint32_t> unplaced_;  // new triangles that are in no strip yet
 };
 

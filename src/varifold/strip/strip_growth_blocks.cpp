@@ -23,14 +23,10 @@ bool same_triangle(const std::array<std::uint32_t, 3>& a, const std::uint32_t* b
 // or the strip is cut there.
 void StripGrowth::change_block(std::uint32_t b, std::span<const Corner> corners) {
   // Splitting a block for room moves some of its triangles to the next new block.
-  std::array<std::uint32_t, 8> pieces{b};
-  std::size_t piece_count = 1;
-  const auto add_piece = [&] {
-    assert(piece_count < pieces.size());
-    pieces[piece_count++] = block_count() - 1;
-  };
-  for (std::size_t piece = 0; piece < piece_count;) {
-    const std::uint32_t p = pieces[piece];
+  pieces_.assign(1, b);
+  const auto add_piece = [&] { pieces_.push_back(block_count() - 1); };
+  for (std::size_t piece = 0; piece < pieces_.size();) {
+    const std::uint32_t p = pieces_[piece];
     std::array<std::uint32_t, kMaxSlots> wanted;
     std::fill_n(wanted.begin(), blocks_[p].count, kNone);
     for (const Corner& corner : corners)

@@ -215,11 +215,10 @@ void append_step_size(std::uint32_t level, std::size_t bytes, BlockForm& form) {
 
 }  // namespace
 
-BlockForm build_block_form(const DetailedMesh& detailed) {
+BlockForm build_block_form(const DetailedMesh& detailed, std::uint32_t word_bytes) {
   const CollapseSequence& sequence = detailed.sequence;
   assert(!sequence.moves_vertices());
   const SequenceHistory history(detailed);
-  BlockForm form;
   StripGrowth::FirstCorners first_corners;
   {
     StripGrowth growth(detailed, history);
@@ -227,11 +226,11 @@ BlockForm build_block_form(const DetailedMesh& detailed) {
     first_corners = growth.first_corners();
   }
   // Three bytes name the blocks of 800,000 vertices; where they do not, begin again with four.
-  for (;; ++form.word_bytes) {
-    const blocks::WordFormat format(form.word_bytes);
+  for (;; ++word_bytes) {
+    const blocks::WordFormat format(word_bytes);
     StripGrowth growth(detailed, history, first_corners);
     BlockForm made;
-    made.word_bytes = form.word_bytes;
+    made.word_bytes = word_bytes;
     copy_base(growth, made);
     StepWriter writer(sequence, format);
     made.step_bytes.reserve(sequence.step_count());

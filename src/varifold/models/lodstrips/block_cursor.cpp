@@ -69,49 +69,49 @@ const std::uint8_t* next_operation(const std::uint8_t* at) {
 
 // The block that a group changes.
 struct BlockCursor::Place {
-  DrawRange& range;
+  std::uint8_t& count;
   std::uint32_t* slots;
 
-  [[nodiscard]] std::uint32_t* end() const { return slots + range.index_count; }
+  [[nodiscard]] std::uint32_t* end() const { return slots + count; }
   void duplicate(std::uint32_t slot) {
     move_up<2>(slots + slot, end());
-    range.index_count += 2;
+    count = static_cast<std::uint8_t>(count + 2);
   }
   void insert(std::uint32_t slot, std::uint32_t value) {
     move_up<1>(slots + slot, end());
     slots[slot] = value;
-    ++range.index_count;
+    ++count;
   }
   void erase_one(std::uint32_t slot) {
     move_down<1>(slots + slot, end());
-    --range.index_count;
+    --count;
   }
   void erase_two(std::uint32_t slot) {
     move_down<2>(slots + slot, end());
-    range.index_count -= 2;
+    count = static_cast<std::uint8_t>(count - 2);
   }
   // A strip of one triangle after the others.
   void open(std::uint32_t order, std::uint32_t vertex, std::uint32_t target, std::uint32_t value) {
     std::uint32_t* to = end();
-    if (range.index_count > 0) *to++ = kStripRestart;
+    if (count > 0) *to++ = kStripRestart;
     const std::uint32_t place = order / 2;
     const bool target_first = order % 2 == 1;
     to[place == 0 ? 1 : 0] = target_first ? target : vertex;
     to[place == 2 ? 1 : 2] = target_first ? vertex : target;
     to[place] = value;
-    range.index_count = static_cast<std::uint32_t>(to + 3 - slots);
+    count = static_cast<std::uint8_t>(to + 3 - slots);
   }
-  void undo_open() { pop(range.index_count > 3 ? 4 : 3); }
-  void pop(std::uint32_t count) {
-    std::fill_n(end() - count, count, kStripRestart);
-    range.index_count -= count;
+  void undo_open() { pop(count > 3 ? 4 : 3); }
+  void pop(std::uint32_t slot_count) {
+    std::fill_n(end() - slot_count, slot_count, kStripRestart);
+    count = static_cast<std::uint8_t>(count - slot_count);
   }
 };
 
 BlockCursor::Place BlockCursor::place(std::uint32_t block) {
-  DrawRange& range = blocks_[block];
-  changed_slots_.mark(range.first_index);
-  return {range, slots_.data() + kChunk + range.first_index};
+  const std::uint32_t first = form_.first[block];
+  changed_slots_.mark(first);
+  return {counts_[block], slots_.data() + kChunk + first};
 }
 
 BlockCursor::BlockCursor(const BlockForm& form, const LevelTable& levels,
@@ -119,23 +119,18 @@ BlockCursor::BlockCursor(const BlockForm& form, const LevelTable& levels,
     : form_(form), levels_(levels), buffer_(buffer), vertex_count_(levels.vertex_count(0)) {
   slots_.assign(std::size_t{form.buffer_size} + 2 * kChunk, kStripRestart);
   changed_slots_.reset(form.buffer_size);
-  blocks_.resize(form.first.size());
-  for (std::uint32_t b = 0; b < blocks_.size(); ++b) {
-    const std::uint32_t range = form.range.empty() ? 0 : form.range[b];
-    blocks_[b].first_index = form.first[b];
-    blocks_[b].primitive = Primitive::kStrips;
-    blocks_[b].material = attributes.ranges.empty() ? 0 : attributes.ranges[range].material;
-  }
+  counts_.assign(form.first.size(), 0);
   const std::uint32_t* from = form.base_slots.data();
   for (const std::uint8_t count : form.base_counts) {
-    DrawRange& block = blocks_[used_blocks_++];
-    block.index_count = count;
-    std::copy_n(from, count, slots_.begin() + kChunk + block.first_index);
+    std::copy_n(from, count, place(used_blocks_).slots);
+    counts_[used_blocks_++] = count;
     from += count;
   }
+  for (const MaterialRange& range : attributes.ranges) materials_.push_back(range.material);
+  if (materials_.empty()) materials_.push_back(0);
+  ranges_.reserve(buffer_ == StripBuffer::kInPlace ? counts_.size() : materials_.size());
   if (buffer_ == StripBuffer::kInPlace) return;
-  compact_.resize(form.buffer_size + blocks_.size());
-  compact_ranges_.reserve(std::max<std::size_t>(1, attributes.ranges.size()));
+  compact_.resize(form.buffer_size + counts_.size());
 }
 
 void BlockCursor::go_to_level(std::uint32_t level) {
@@ -368,12 +363,11 @@ void BlockCursor::undo_extended(Place place, const std::uint8_t* at) {
 
 // The new block may stand where this one reached before.
 void BlockCursor::split_block(Place place, std::uint32_t slot, bool inside) {
-  DrawRange& left = place.range;
   Place right = this->place(used_blocks_++);
   std::uint32_t* const old_end = place.end();
-  right.range.index_count = left.index_count - slot;
-  left.index_count = inside ? slot + 2 : slot - 1;
-  std::memmove(right.slots, place.slots + slot, right.range.index_count * sizeof(std::uint32_t));
+  right.count = static_cast<std::uint8_t>(place.count - slot);
+  place.count = static_cast<std::uint8_t>(inside ? slot + 2 : slot - 1);
+  std::memmove(right.slots, place.slots + slot, right.count * sizeof(std::uint32_t));
   std::uint32_t* const gap_end = std::min(right.slots, old_end);
   if (place.end() < gap_end) std::fill(place.end(), gap_end, kStripRestart);
   if (right.end() < old_end) std::fill(right.end(), old_end, kStripRestart);
@@ -382,40 +376,39 @@ void BlockCursor::split_block(Place place, std::uint32_t slot, bool inside) {
 void BlockCursor::join_block(Place place, std::uint32_t slot, bool inside) {
   Place right = this->place(--used_blocks_);
   std::uint32_t* const right_end = right.end();
-  std::memmove(place.slots + slot, right.slots, right.range.index_count * sizeof(std::uint32_t));
+  std::memmove(place.slots + slot, right.slots, right.count * sizeof(std::uint32_t));
   if (!inside) place.slots[slot - 1] = kStripRestart;
-  place.range.index_count = slot + right.range.index_count;
+  place.count = static_cast<std::uint8_t>(slot + right.count);
   std::uint32_t* const rest = std::max(place.end(), right.slots);
   if (rest < right_end) std::fill(rest, right_end, kStripRestart);
-  right.range.index_count = 0;
+  right.count = 0;
+}
+
+// One range a block.
+void BlockCursor::fill_in_place() {
+  ranges_.clear();
+  for (std::uint32_t b = 0; b < used_blocks_; ++b)
+    if (counts_[b] > 0)
+      ranges_.push_back({form_.first[b], counts_[b], Primitive::kStrips, materials_[range_of(b)]});
 }
 
 // All blocks one after the other, by material.
 void BlockCursor::fill_compact() {
-  const std::uint32_t range_count =
-      form_.range.empty() ? 1 : 1 + *std::max_element(form_.range.begin(), form_.range.end());
-  compact_ranges_.clear();
+  ranges_.clear();
   std::uint32_t* to = compact_.data();
-  for (std::uint32_t r = 0; r < range_count; ++r) {
-    DrawRange range;
-    range.first_index = static_cast<std::uint32_t>(to - compact_.data());
-    range.primitive = Primitive::kStrips;
+  for (std::uint32_t r = 0; r < materials_.size(); ++r) {
+    const auto first = static_cast<std::uint32_t>(to - compact_.data());
     for (std::uint32_t b = 0; b < used_blocks_; ++b) {
-      const DrawRange& block = blocks_[b];
-      if (block.index_count == 0 || (range_count > 1 && form_.range[b] != r)) continue;
-      std::memcpy(to, slots_.data() + kChunk + block.first_index,
-                  block.index_count * sizeof(std::uint32_t));
-      to += block.index_count;
+      if (counts_[b] == 0 || range_of(b) != r) continue;
+      std::memcpy(to, slots_.data() + kChunk + form_.first[b], counts_[b] * sizeof(std::uint32_t));
+      to += counts_[b];
       *to++ = kStripRestart;
-      range.material = block.material;
     }
     const auto end = static_cast<std::uint32_t>(to - compact_.data());
-    if (end == range.first_index) continue;
-    range.index_count = end - 1 - range.first_index;
-    compact_ranges_.push_back(range);
+    if (end > first)
+      ranges_.push_back({first, end - 1 - first, Primitive::kStrips, materials_[r]});
   }
-  const auto size = static_cast<std::uint32_t>(to - compact_.data());
-  compact_changed_ = {0, size};
+  compact_changed_ = {0, static_cast<std::uint32_t>(to - compact_.data())};
 }
 
 std::span<const std::uint32_t> BlockCursor::slots() const {
@@ -424,21 +417,24 @@ std::span<const std::uint32_t> BlockCursor::slots() const {
 
 void BlockCursor::fill(DrawList& list) {
   if (buffer_ == StripBuffer::kInPlace) {
+    if (changed_) fill_in_place();
     list.indices = slots();
-    list.ranges = {blocks_.data(), used_blocks_};
     list.changed_indices = changed_slots_.take(BlockForm::kMaxSlots);
-    return;
+  } else {
+    if (changed_) fill_compact();
+    list.indices = {compact_.data(), compact_changed_.count};
+    list.changed_indices = {&compact_changed_, changed_ ? std::size_t{1} : 0};
   }
-  if (changed_) fill_compact();
-  list.indices = {compact_.data(), compact_changed_.count};
-  list.ranges = compact_ranges_;
-  list.changed_indices = {&compact_changed_, changed_ ? std::size_t{1} : 0};
+  list.ranges = ranges_;
+  const std::uint32_t finest = levels_.finest_level();
+  const float fraction = finest > 0 ? static_cast<float>(level_) / static_cast<float>(finest) : 1;
+  for (DrawRange& range : ranges_) range.level = fraction;
   changed_ = false;
 }
 
 std::size_t BlockCursor::bytes() const {
-  return (slots_.size() + compact_.size()) * sizeof(std::uint32_t) +
-         blocks_.size() * sizeof(DrawRange) + changed_slots_.bytes();
+  return (slots_.size() + compact_.size()) * sizeof(std::uint32_t) + counts_.size() +
+         ranges_.capacity() * sizeof(DrawRange) + changed_slots_.bytes();
 }
 
 }  // namespace varifold

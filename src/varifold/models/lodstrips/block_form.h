@@ -56,8 +56,10 @@ struct BlockForm {
   [[nodiscard]] std::uint32_t size_of_long_step(std::uint32_t level) const;
 };
 
-/// One replay of the sequence, which must not move vertices. O(n).
-[[nodiscard]] BlockForm build_block_form(const DetailedMesh& detailed);
+/// Two replays of the sequence, which must not move vertices. O(n). `word_bytes`, 3 or 4, is the
+/// least size of a group's first word; the number of blocks may ask for more.
+[[nodiscard]] BlockForm build_block_form(const DetailedMesh& detailed,
+                                         std::uint32_t word_bytes = 3);
 
 /// How an instance hands its strips over.
 enum class StripBuffer : std::uint8_t {
@@ -97,7 +99,11 @@ class BlockCursor {
   void undo_extended(Place place, const std::uint8_t* at);
   void split_block(Place place, std::uint32_t slot, bool inside);
   void join_block(Place place, std::uint32_t slot, bool inside);
+  void fill_in_place();
   void fill_compact();
+  [[nodiscard]] std::uint32_t range_of(std::uint32_t block) const {
+    return form_.range.empty() ? 0 : form_.range[block];
+  }
 
   const BlockForm& form_;
   const LevelTable& levels_;
@@ -107,11 +113,12 @@ class BlockCursor {
   std::uint32_t used_blocks_ = 0;
   std::size_t cursor_ = 0;            // in the records
   std::vector<std::uint32_t> slots_;  // with a few more at both ends
-  std::vector<DrawRange> blocks_;     // first_index and index_count of every block
+  std::vector<std::uint8_t> counts_;  // slots in use, per block
   bool changed_ = true;               // since fill()
   ChangedBlocks changed_slots_;
+  std::vector<std::uint32_t> materials_;  // per material range
+  std::vector<DrawRange> ranges_;
   std::vector<std::uint32_t> compact_;
-  std::vector<DrawRange> compact_ranges_;
   ElementRange compact_changed_;
 };
 
