@@ -1,7 +1,7 @@
 #include <varifold/models/lodstrips/block_form.h>
 #include <varifold/models/lodstrips/block_records.h>
 #include <varifold/simplify/sequence_history.h>
-#include <varifold/strip/strip_growth.h>
+#include <varifold/strip/sequence_strips.h>
 #include <algorithm>
 #include <cassert>
 #include <span>
@@ -197,9 +197,9 @@ class StepWriter {
   std::vector<Group> groups_;
 };
 
-void copy_base(const StripGrowth& growth, BlockForm& form) {
-  for (std::uint32_t b = 0; b < growth.block_count(); ++b) {
-    const auto slots = growth.block(b);
+void copy_base(const SequenceStrips& strips, BlockForm& form) {
+  for (std::uint32_t b = 0; b < strips.block_count(); ++b) {
+    const auto slots = strips.block(b);
     form.base_counts.push_back(static_cast<std::uint8_t>(slots.size()));
     form.base_slots.insert(form.base_slots.end(), slots.begin(), slots.end());
   }
@@ -219,35 +219,35 @@ BlockForm build_block_form(const DetailedMesh& detailed, std::uint32_t word_byte
   const CollapseSequence& sequence = detailed.sequence;
   assert(!sequence.moves_vertices());
   const SequenceHistory history(detailed);
-  StripGrowth::FirstCorners first_corners;
+  SequenceStrips::FirstCorners first_corners;
   {
-    StripGrowth growth(detailed, history);
-    while (growth.level() < sequence.step_count()) growth.split();
-    first_corners = growth.first_corners();
+    SequenceStrips strips(detailed, history);
+    while (strips.level() < sequence.step_count()) strips.split();
+    first_corners = strips.first_corners();
   }
   // Three bytes name the blocks of 800,000 vertices; where they do not, begin again with four.
   for (;; ++word_bytes) {
     const blocks::WordFormat format(word_bytes);
-    StripGrowth growth(detailed, history, first_corners);
+    SequenceStrips strips(detailed, history, first_corners);
     BlockForm made;
     made.word_bytes = word_bytes;
-    copy_base(growth, made);
+    copy_base(strips, made);
     StepWriter writer(sequence, format);
     made.step_bytes.reserve(sequence.step_count());
     for (std::uint32_t level = 0; level < sequence.step_count(); ++level) {
-      growth.split();
+      strips.split();
       const std::size_t before = made.records.size();
-      writer.write(level, growth.changes(), made.records);
+      writer.write(level, strips.changes(), made.records);
       append_step_size(level, made.records.size() - before, made);
-      if (growth.block_count() > format.block_limit()) break;
+      if (strips.block_count() > format.block_limit()) break;
     }
-    if (growth.block_count() > format.block_limit()) continue;
-    StripGrowth::Layout layout = growth.layout();
+    if (strips.block_count() > format.block_limit()) continue;
+    SequenceStrips::Layout layout = strips.layout();
     made.first = std::move(layout.first);
     made.buffer_size = layout.size;
     if (detailed.mesh.ranges.size() > 1)
-      for (std::uint32_t b = 0; b < growth.block_count(); ++b)
-        made.range.push_back(growth.material_range(b));
+      for (std::uint32_t b = 0; b < strips.block_count(); ++b)
+        made.range.push_back(strips.material_range(b));
     made.records.insert(made.records.end(), BlockForm::kPadding, 0);
     made.records.shrink_to_fit();
     return made;

@@ -405,8 +405,7 @@ void BlockCursor::fill_compact() {
       *to++ = kStripRestart;
     }
     const auto end = static_cast<std::uint32_t>(to - compact_.data());
-    if (end > first)
-      ranges_.push_back({first, end - 1 - first, Primitive::kStrips, materials_[r]});
+    if (end > first) ranges_.push_back({first, end - 1 - first, Primitive::kStrips, materials_[r]});
   }
   compact_changed_ = {0, static_cast<std::uint32_t>(to - compact_.data())};
 }

@@ -1,6 +1,6 @@
 // Where new triangles go that no strip crosses: to the end of a strip, or into a strip of their
 // own.
-#include <varifold/strip/strip_growth.h>
+#include <varifold/strip/sequence_strips.h>
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace varifold {
 
-void StripGrowth::place_new_triangles() {
+void SequenceStrips::place_new_triangles() {
   while (!unplaced_.empty()) {
     Placement best;
     // All of a split's triangles are looked at; those of a base one after the other.
@@ -30,7 +30,7 @@ void StripGrowth::place_new_triangles() {
   }
 }
 
-StripGrowth::Placement StripGrowth::best_placement(std::uint32_t triangle) const {
+SequenceStrips::Placement SequenceStrips::best_placement(std::uint32_t triangle) const {
   Placement best;
   for (std::uint32_t e = 0; e < 3; ++e) {
     if (neighbor_[3 * triangle + e] == kNone) continue;
@@ -41,7 +41,8 @@ StripGrowth::Placement StripGrowth::best_placement(std::uint32_t triangle) const
 }
 
 // Joining `triangle` to its neighbour across `edge`, where that is the first or last of its strip.
-StripGrowth::Placement StripGrowth::placement_at(std::uint32_t triangle, std::uint32_t edge) const {
+SequenceStrips::Placement SequenceStrips::placement_at(std::uint32_t triangle,
+                                                       std::uint32_t edge) const {
   Placement found;
   const Edge other = across({triangle, edge});
   if (other.triangle == kNone || block_of_[other.triangle] == kNone) return found;
@@ -78,7 +79,7 @@ StripGrowth::Placement StripGrowth::placement_at(std::uint32_t triangle, std::ui
 }
 
 // False where the block had to be split first, so that the placement may no longer hold.
-bool StripGrowth::place(std::uint32_t triangle, const Placement& placement) {
+bool SequenceStrips::place(std::uint32_t triangle, const Placement& placement) {
   const std::uint32_t b = placement.block;
   if (make_room(b, placement.cost)) return false;
   const auto at = [](std::uint32_t slot) { return static_cast<std::uint8_t>(slot); };
@@ -118,14 +119,14 @@ bool StripGrowth::place(std::uint32_t triangle, const Placement& placement) {
   return true;
 }
 
-void StripGrowth::learn_first_corner(std::uint32_t triangle, std::uint32_t vertex) {
+void SequenceStrips::learn_first_corner(std::uint32_t triangle, std::uint32_t vertex) {
   for (std::uint8_t c = 0; c < 3; ++c)
     if (corners_[3 * triangle + c] == vertex && learned_[triangle] == kAnyCorner)
       learned_[triangle] = c;
 }
 
 // A block with room for a strip of one triangle: one that holds a neighbour, else any.
-std::uint32_t StripGrowth::block_for(std::uint32_t triangle) {
+std::uint32_t SequenceStrips::block_for(std::uint32_t triangle) {
   constexpr std::uint32_t kSlots = 4;
   std::uint32_t best = kNone;
   for (std::uint32_t e = 0; e < 3; ++e) {
@@ -145,7 +146,7 @@ std::uint32_t StripGrowth::block_for(std::uint32_t triangle) {
   return best;
 }
 
-void StripGrowth::open(std::uint32_t triangle) {
+void SequenceStrips::open(std::uint32_t triangle) {
   const std::uint32_t b = block_for(triangle);
   const auto end = static_cast<std::uint8_t>(blocks_[b].count);
   const std::uint32_t* const corners = &corners_[3 * triangle];

@@ -1,4 +1,4 @@
-#include <varifold/strip/strip_growth.h>
+#include <varifold/strip/sequence_strips.h>
 
 #include <algorithm>
 #include <array>
@@ -7,8 +7,8 @@
 
 namespace varifold {
 
-StripGrowth::StripGrowth(const DetailedMesh& detailed, const SequenceHistory& history,
-                         FirstCorners first)
+SequenceStrips::SequenceStrips(const DetailedMesh& detailed, const SequenceHistory& history,
+                               FirstCorners first)
     : sequence_(detailed.sequence),
       history_(history),
       corners_(history.first_corners()),
@@ -35,7 +35,7 @@ StripGrowth::StripGrowth(const DetailedMesh& detailed, const SequenceHistory& hi
 }
 
 // Neighbours of the base: edges sorted by their vertices, pairs of opposite direction linked.
-void StripGrowth::link_base() {
+void SequenceStrips::link_base() {
   for (std::uint32_t t = 0; t < sequence_.triangle_level.size(); ++t)
     for (std::uint32_t e = 0; e < 3 && sequence_.triangle_level[t] == 0; ++e)
       open_.push_back({t, e});
@@ -58,20 +58,20 @@ void StripGrowth::link_base() {
 
 // True where the two edges are one edge of the surface: the same vertices, opposite directions, one
 // material.
-bool StripGrowth::matches(Edge a, Edge b) const {
+bool SequenceStrips::matches(Edge a, Edge b) const {
   return corner(a) == corner({b.triangle, b.edge + 1}) &&
          corner(b) == corner({a.triangle, a.edge + 1}) &&
          (range_of_.empty() || range_of_[a.triangle] == range_of_[b.triangle]);
 }
 
-StripGrowth::Edge StripGrowth::across(Edge edge) const {
+SequenceStrips::Edge SequenceStrips::across(Edge edge) const {
   const std::uint32_t t = neighbor_[3 * edge.triangle + edge.edge];
   for (std::uint32_t e = 0; e < 3; ++e)
     if (neighbor_[3 * t + e] == edge.triangle && matches(edge, {t, e})) return {t, e};
   return {kNone, 0};
 }
 
-void StripGrowth::split() {
+void SequenceStrips::split() {
   changes_.clear();
   gather_corners();
   update_links();
@@ -87,7 +87,7 @@ void StripGrowth::split() {
   ++level_;
 }
 
-void StripGrowth::gather_corners() {
+void SequenceStrips::gather_corners() {
   moved_.clear();
   for (std::uint32_t v = sequence_.vertices[level_]; v < sequence_.vertices[level_ + 1]; ++v) {
     for (const std::uint32_t slot : history_.changed(v)) {
@@ -98,7 +98,7 @@ void StripGrowth::gather_corners() {
 }
 
 // The new triangles come between old neighbours.
-void StripGrowth::update_links() {
+void SequenceStrips::update_links() {
   open_.clear();
   const auto open = [&](Edge edge) {
     neighbor_[3 * edge.triangle + edge.edge] = kNone;
@@ -121,7 +121,7 @@ void StripGrowth::update_links() {
   link_open_edges();
 }
 
-void StripGrowth::link_open_edges() {
+void SequenceStrips::link_open_edges() {
   for (std::size_t i = 0; i < open_.size(); ++i) {
     std::size_t found = open_.size();
     for (std::size_t j = 0; j < open_.size(); ++j) {
@@ -143,7 +143,7 @@ void StripGrowth::link_open_edges() {
   }
 }
 
-TriangleStrips StripGrowth::strips() const {
+TriangleStrips SequenceStrips::strips() const {
   TriangleStrips strips;
   for (const Block& block : blocks_) {
     for (std::uint32_t begin = 0; begin < block.count;) {

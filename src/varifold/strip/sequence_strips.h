@@ -51,7 +51,7 @@ struct StripChange {
 };
 
 /// Walks a sequence from the base up. O(1) blocks are looked at in a step.
-class StripGrowth {
+class SequenceStrips {
  public:
   static constexpr std::uint32_t kMaxSlots = 64;
 
@@ -63,8 +63,8 @@ class StripGrowth {
 
   /// The base, in strips. `detailed` and `history` must outlive this. `first` is empty or what
   /// another walk of the same sequence has learned; all else is the same with it and without it.
-  StripGrowth(const DetailedMesh& detailed, const SequenceHistory& history,
-              FirstCorners first = {});
+  SequenceStrips(const DetailedMesh& detailed, const SequenceHistory& history,
+                 FirstCorners first = {});
 
   /// What has been learned so far.
   [[nodiscard]] const FirstCorners& first_corners() const { return learned_; }

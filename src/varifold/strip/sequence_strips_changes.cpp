@@ -1,5 +1,5 @@
 // The changes of blocks, one by one.
-#include <varifold/strip/strip_growth.h>
+#include <varifold/strip/sequence_strips.h>
 
 #include <algorithm>
 #include <cassert>
@@ -7,34 +7,34 @@
 
 namespace varifold {
 
-std::uint32_t StripGrowth::place_of(const Block& block, std::uint32_t triangle) {
+std::uint32_t SequenceStrips::place_of(const Block& block, std::uint32_t triangle) {
   const std::uint32_t* const found =
       std::find(block.triangle, block.triangle + block.count, triangle);
   assert(found != block.triangle + block.count);
   return static_cast<std::uint32_t>(found - block.triangle);
 }
 
-std::uint32_t StripGrowth::strip_begin(const Block& block, std::uint32_t place) {
+std::uint32_t SequenceStrips::strip_begin(const Block& block, std::uint32_t place) {
   while (place > 0 && block.slots[place - 1] != kStripRestart) --place;
   return place;
 }
 
-std::uint32_t StripGrowth::strip_end(const Block& block, std::uint32_t place) {
+std::uint32_t SequenceStrips::strip_end(const Block& block, std::uint32_t place) {
   while (place < block.count && block.slots[place] != kStripRestart) ++place;
   return place;
 }
 
-void StripGrowth::set_triangle(std::uint32_t b, std::uint32_t place, std::uint32_t triangle) {
+void SequenceStrips::set_triangle(std::uint32_t b, std::uint32_t place, std::uint32_t triangle) {
   blocks_[b].triangle[place] = triangle;
   block_of_[triangle] = b;
 }
 
-void StripGrowth::new_block(std::uint32_t range) {
+void SequenceStrips::new_block(std::uint32_t range) {
   blocks_.emplace_back();
   blocks_.back().range = range;
 }
 
-void StripGrowth::apply(const StripChange& change) {
+void SequenceStrips::apply(const StripChange& change) {
   changes_.push_back(change);
   if (change.kind == StripChange::kNewBlock) return new_block(change.value);
   if (change.kind == StripChange::kSplit) return split_block(change);
@@ -92,7 +92,7 @@ void StripGrowth::apply(const StripChange& change) {
   block.most = std::max(block.most, block.count);
 }
 
-void StripGrowth::split_block(const StripChange& change) {
+void SequenceStrips::split_block(const StripChange& change) {
   const std::uint32_t at = change.slot;
   new_block(blocks_[change.block].range);
   Block& left = blocks_[change.block];
@@ -109,7 +109,7 @@ void StripGrowth::split_block(const StripChange& change) {
   left.most = left.count;
 }
 
-StripGrowth::Layout StripGrowth::layout() const {
+SequenceStrips::Layout SequenceStrips::layout() const {
   // First the place of every child within the region of its parent, children before parents.
   Layout layout;
   layout.first.assign(block_count(), 0);

@@ -1,5 +1,5 @@
 // What a split does to the blocks whose triangles get the new vertex.
-#include <varifold/strip/strip_growth.h>
+#include <varifold/strip/sequence_strips.h>
 
 #include <algorithm>
 #include <array>
@@ -21,7 +21,7 @@ bool same_triangle(const std::array<std::uint32_t, 3>& a, const std::uint32_t* b
 // may get only one vertex: where they ask for different ones, the strip crosses the edge that
 // opens, and the slots of that edge are repeated, which makes room for the new triangle in between;
 // or the strip is cut there.
-void StripGrowth::change_block(std::uint32_t b, std::span<const Corner> corners) {
+void SequenceStrips::change_block(std::uint32_t b, std::span<const Corner> corners) {
   // Splitting a block for room moves some of its triangles to the next new block.
   pieces_.assign(1, b);
   const auto add_piece = [&] { pieces_.push_back(block_count() - 1); };
@@ -53,8 +53,8 @@ void StripGrowth::change_block(std::uint32_t b, std::span<const Corner> corners)
 }
 
 // The first two triangles in a row that ask for different vertices in one slot.
-StripGrowth::Conflict StripGrowth::find_conflict(const Block& block,
-                                                 const std::uint32_t* wanted) const {
+SequenceStrips::Conflict SequenceStrips::find_conflict(const Block& block,
+                                                       const std::uint32_t* wanted) const {
   const auto value = [&](std::uint32_t place, std::uint32_t slot) {
     const std::uint32_t v = wanted[place];
     return v != kNone && sequence_.target[v] == block.slots[slot] ? v : block.slots[slot];
@@ -76,7 +76,7 @@ StripGrowth::Conflict StripGrowth::find_conflict(const Block& block,
   return {};
 }
 
-bool StripGrowth::fits_between(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+bool SequenceStrips::fits_between(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
   std::array<std::uint32_t, 3> wanted{a, b, c};
   std::sort(wanted.begin(), wanted.end());
   return std::any_of(unplaced_.begin(), unplaced_.end(), [&](std::uint32_t t) {
@@ -86,7 +86,7 @@ bool StripGrowth::fits_between(std::uint32_t a, std::uint32_t b, std::uint32_t c
   });
 }
 
-void StripGrowth::set_slots(std::uint32_t b, const std::uint32_t* wanted) {
+void SequenceStrips::set_slots(std::uint32_t b, const std::uint32_t* wanted) {
   const std::uint32_t count = blocks_[b].count;
   for (std::uint32_t i = 0; i + 2 < count; ++i) {
     if (wanted[i] == kNone) continue;
@@ -98,7 +98,7 @@ void StripGrowth::set_slots(std::uint32_t b, const std::uint32_t* wanted) {
 
 // Triangles without area that have got one are new ones. Returns the place of one that is not, or
 // kNone.
-std::uint32_t StripGrowth::claim_new_triangles(std::uint32_t b) {
+std::uint32_t SequenceStrips::claim_new_triangles(std::uint32_t b) {
   const Block& block = blocks_[b];
   std::uint32_t begin = 0;
   for (std::uint32_t i = 0; i + 2 < block.count; ++i) {
@@ -119,7 +119,7 @@ std::uint32_t StripGrowth::claim_new_triangles(std::uint32_t b) {
 }
 
 // Takes its area from a triangle that should have none.
-void StripGrowth::break_run(std::uint32_t b, std::uint32_t place) {
+void SequenceStrips::break_run(std::uint32_t b, std::uint32_t place) {
   const std::uint32_t next = blocks_[b].slots[place + 1];
   // A slot at the beginning that only turns the strip follows the one after it.
   if (strip_begin(blocks_[b], place) == place && blocks_[b].slots[place] == sequence_.target[next])
@@ -130,7 +130,7 @@ void StripGrowth::break_run(std::uint32_t b, std::uint32_t place) {
 
 // Ends the strip before the triangle at `place` and lets the next one begin there. The slots that
 // both need are repeated; one more keeps the orientation where that asks for it.
-void StripGrowth::cut_strip(std::uint32_t b, std::uint32_t place) {
+void SequenceStrips::cut_strip(std::uint32_t b, std::uint32_t place) {
   const Block& block = blocks_[b];
   const std::uint32_t begin = strip_begin(block, place);
   const std::uint32_t first = block.slots[place];
@@ -146,7 +146,7 @@ void StripGrowth::cut_strip(std::uint32_t b, std::uint32_t place) {
   if ((place - begin) % 2 == 1) insert(place + shared + 1, first);
 }
 
-bool StripGrowth::make_room(std::uint32_t b, std::uint32_t slots) {
+bool SequenceStrips::make_room(std::uint32_t b, std::uint32_t slots) {
   if (blocks_[b].count + slots <= kMaxSlots) return false;
   const std::uint32_t at = best_split(blocks_[b]);
   const bool between = blocks_[b].slots[at - 1] == kStripRestart;
@@ -157,7 +157,7 @@ bool StripGrowth::make_room(std::uint32_t b, std::uint32_t slots) {
 
 // Where to split a full block: between strips if that is not too far from the middle, else inside
 // one.
-std::uint32_t StripGrowth::best_split(const Block& block) const {
+std::uint32_t SequenceStrips::best_split(const Block& block) const {
   constexpr std::uint32_t kCostOfCut = 20;
   std::uint32_t best = 0, begin = 0;
   std::uint32_t best_cost = kNone;
