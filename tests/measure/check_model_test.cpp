@@ -1,9 +1,12 @@
 // A checker is worth what it finds: sound models pass, planted faults are named.
 #include <gtest/gtest.h>
 
+#include <tests/support/greedy_strips.h>
 #include <tests/support/meshes.h>
 #include <varifold/measure/check_model.h>
 #include <varifold/mesh/generators.h>
+#include <varifold/models/mts/build.h>
+#include <varifold/models/mts/instance.h>
 #include <varifold/models/pm/build.h>
 #include <varifold/simplify/simplify.h>
 #include <algorithm>
@@ -164,6 +167,107 @@ TEST(CheckModel, NotesPointsAtOnePosition) {
     data.mesh.positions.back() = data.mesh.positions[data.mesh.positions.size() - 2];
   });
   EXPECT_TRUE(has(faults, "coincident_point")) << listed(faults);
+}
+
+using SharedMts = std::shared_ptr<const MultiresolutionStrips>;
+
+SharedMts mts_of(const TriangleMesh& mesh) {
+  const auto simplified = simplify(mesh);
+  EXPECT_TRUE(simplified) << simplified.error().message;
+  const DetailedMesh& detailed = simplified->detailed;
+  return std::make_shared<const MultiresolutionStrips>(
+      build_mts(detailed, test::greedy_strips(detailed.mesh)));
+}
+
+TEST(CheckModelMts, AllGroupsAreSound) {
+  for (const auto& [name, mesh] : test::all_groups()) {
+    const auto check = check_model<MultiresolutionStripsInstance>(mts_of(mesh));
+    ASSERT_TRUE(check);
+    EXPECT_TRUE(is_sound(check->faults)) << name << ": " << listed(check->faults);
+  }
+}
+
+TEST(CheckModelMts, EmptyModel) {
+  const auto check =
+      check_model<MultiresolutionStripsInstance>(std::make_shared<const MultiresolutionStrips>());
+  ASSERT_TRUE(check);
+  EXPECT_TRUE(check->faults.empty());
+}
+
+std::vector<Fault> mts_faults_after(const std::function<void(MultiresolutionStripsData&)>& damage) {
+  MultiresolutionStripsData data = mts_of(test::icosphere(320))->data();
+  damage(data);
+  const auto check = check_model<MultiresolutionStripsInstance>(
+      std::make_shared<const MultiresolutionStrips>(std::move(data)));
+  EXPECT_TRUE(check);
+  return check ? check->faults : std::vector<Fault>{};
+}
+
+// Whatever vertex of whatever node is another one: some level has a triangle that it should not.
+TEST(CheckModelMts, FindsEveryWrongVertex) {
+  const std::size_t nodes = mts_of(test::icosphere(320))->data().node_vertex.size();
+  for (std::size_t node = 1; node < nodes; node += 13) {
+    bool is_vertex = false;
+    const auto faults = mts_faults_after([&](MultiresolutionStripsData& data) {
+      const auto start = [&](const MultiresolutionStripsData::Strip& s) {
+        return s.first_node == node;
+      };
+      std::uint32_t& vertex = data.node_vertex[node];
+      is_vertex =
+          vertex != kStripRestart && std::none_of(data.strips.begin(), data.strips.end(), start);
+      if (is_vertex) vertex = vertex == 0 ? 1 : 0;
+    });
+    EXPECT_EQ(is_sound(faults), !is_vertex) << node;
+  }
+}
+
+TEST(CheckModelMts, FindsAWrongInterval) {
+  const auto faults = mts_faults_after([](MultiresolutionStripsData& data) {
+    // The start of some strip leaves its first vertex one state too early.
+    for (std::size_t s = data.strips.size() / 2; s + 1 < data.strips.size(); ++s) {
+      const std::uint32_t node = data.strips[s].first_node;
+      auto& first = data.arcs[data.strips[s].first_arc];
+      if (data.node_arc[node + 1] < 2 || first.last < 1) continue;
+      --first.last;
+      return;
+    }
+    FAIL() << "no such strip";
+  });
+  EXPECT_TRUE(has(faults, "wrong_corner") || has(faults, "lost_triangle")) << listed(faults);
+}
+
+TEST(CheckModelMts, FindsAChangeAtAnotherLevel) {
+  const auto faults = mts_faults_after(
+      [](MultiresolutionStripsData& data) { --data.changes[data.changes.size() / 2]; });
+  EXPECT_FALSE(is_sound(faults));
+}
+
+TEST(CheckModelMts, FindsAVertexThatIsNotThere) {
+  const auto faults = mts_faults_after([](MultiresolutionStripsData& data) {
+    for (std::uint32_t& v : data.node_vertex)
+      if (v != kStripRestart) v = data.mesh.vertex_count() - 1;
+  });
+  EXPECT_TRUE(has(faults, "wrong_corner")) << listed(faults);
+}
+
+TEST(CheckModelMts, FindsAStripThatIsDrawnTwice) {
+  const auto faults = mts_faults_after([](MultiresolutionStripsData& data) {
+    // The last strip becomes a copy of the first.
+    const auto first = data.strips[0], second = data.strips[1];
+    data.node_vertex.insert(data.node_vertex.end(), data.node_vertex.begin(),
+                            data.node_vertex.begin() + second.first_node);
+    data.node_arc.insert(data.node_arc.end(), data.node_arc.begin(),
+                         data.node_arc.begin() + second.first_node);
+    data.arcs.insert(data.arcs.end(), data.arcs.begin(), data.arcs.begin() + second.first_arc);
+    data.changes.insert(data.changes.end(), data.changes.begin(),
+                        data.changes.begin() + second.first_change);
+    const auto end = data.strips.back();
+    data.strips.push_back({end.first_node + second.first_node, end.first_arc + second.first_arc,
+                           end.first_change + second.first_change,
+                           end.first_index + second.first_index - first.first_index});
+    ++data.first_strip.back();
+  });
+  EXPECT_TRUE(has(faults, "wrong_count")) << listed(faults);
 }
 
 }  // namespace

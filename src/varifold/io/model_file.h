@@ -2,19 +2,21 @@
 #pragma once
 
 #include <varifold/base/result.h>
-#include <varifold/io/container_table.h>
+#include <varifold/io/any_model.h>
 #include <varifold/models/pm/encoding.h>
 #include <varifold/models/pm/progressive_mesh.h>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 
 namespace varifold {
 
 /// The kind of a container that holds a progressive mesh, and the tag of its only chunk: a stream
 /// of encode_progressive_mesh(). It stands last, so that a reader of a pipe (ContainerStream,
 /// ProgressiveStreamReader) can refine while it arrives; other chunks may come before it.
-inline constexpr std::uint32_t kProgressiveMeshKind = fourcc("pm  ");
-inline constexpr std::uint32_t kProgressiveMeshStream = fourcc("STRM");
+inline constexpr std::uint32_t kProgressiveMeshKind = ModelKind<ProgressiveMesh>::kFourcc;
+inline constexpr std::uint32_t kProgressiveMeshStream = ModelKind<ProgressiveMesh>::kChunk;
 
 struct ModelFileOptions {
   EncodeOptions encoding;
@@ -34,6 +36,25 @@ struct ModelFileReport {
 [[nodiscard]] Result<ModelFileReport> write_model(const ProgressiveMesh& model,
                                                   const std::filesystem::path& path,
                                                   const ModelFileOptions& options = {});
+
+/// Writes a chunk that a model encoded itself to; what the overloads below call.
+[[nodiscard]] Result<ModelFileReport> write_model_chunk(std::uint32_t kind, std::uint32_t tag,
+                                                        std::vector<std::byte> bytes, bool compress,
+                                                        const std::filesystem::path& path);
+
+/// The same for any other kind of model (any_model.h), in one chunk.
+template <class Model>
+[[nodiscard]] Result<ModelFileReport> write_model(const Model& model,
+                                                  const std::filesystem::path& path,
+                                                  bool compress = !ModelKind<Model>::kDense) {
+  using Kind = ModelKind<Model>;
+  return write_model_chunk(Kind::kFourcc, Kind::kChunk, Kind::encode(model), compress, path);
+}
+
+/// Reads a model of any kind; from a pipe too. All checksums are verified. O(n).
+/// Errors: kUnreadable, kInvalidInput, kUnsupported (a kind that is not in any_model.h); the
+/// message begins with the path and names the place.
+[[nodiscard]] Result<AnyModel> read_any_model(const std::filesystem::path& path);
 
 /// Reads a progressive mesh; from a pipe too. All checksums are verified. O(n).
 /// Errors: kUnreadable, kInvalidInput, kUnsupported (another kind of model); the message begins

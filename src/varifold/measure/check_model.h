@@ -7,6 +7,8 @@
 #include <varifold/models/pm/progressive_mesh.h>
 #include <cstdint>
 #include <memory>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace varifold {
@@ -25,14 +27,20 @@ struct ModelCheck {
   std::uint32_t distances_checked = 0;  ///< levels whose error was compared with distances
 };
 
-/// Walks the levels of a progressive mesh by instances, up, down and directly, and looks at each
-/// level that it visits. Topology is judged on the points of the model: the new vertices of one
-/// split are one point, vertices of the base are by position.
+/// The kind of model that an instance is of.
+template <class Instance>
+using CheckedModel = std::remove_cvref_t<decltype(std::declval<const Instance&>().model())>;
+
+/// Walks the levels of a uniform model (models/common/uniform_model.h) by instances, up, down and
+/// directly, and looks at each level that it visits. Topology is judged on the points of the model:
+/// the new vertices of one split are one point, vertices of the base are by position.
 ///
 /// Faults, each with the number of levels that have it and the first of them:
 /// - not_identical: the buffers of a level depend on the way to it
-/// - wrong_count: vertices or triangles of the instance are not those of the model
-/// - wrong_corner: a corner is not the ancestor of that of the full mesh, or does not exist
+/// - wrong_count: other vertices or triangles than the model promises
+/// - wrong_corner: a triangle whose corners (or material) are not the ancestors of those of one of
+///   the full mesh, or do not exist
+/// - doubled_triangle: one that is drawn more often than the full mesh has it
 /// - lost_triangle: one that a level lacks, though its corners have three different ancestors
 /// - not_closed: an open level of a closed mesh
 /// - euler_changed, components_changed: other than of the full mesh
@@ -47,8 +55,14 @@ struct ModelCheck {
 ///   says by how much, and that much may be between the two.
 /// Note: coincident_point, points of the model at one position (as by rounding).
 ///
-/// The model must be consistent, as from build_progressive_mesh() or decode_progressive_mesh().
-/// O(n) a level. Error: kCancelled.
+/// The model must be consistent, as from a build or a decoder: its walks end and its indices are
+/// vertices. There is an instance of this for every kind of model. O(n log n) a level.
+/// Error: kCancelled.
+template <class Instance>
+[[nodiscard]] Result<ModelCheck> check_model(
+    const std::shared_ptr<const CheckedModel<Instance>>& model,
+    const ModelCheckOptions& options = {});
+
 [[nodiscard]] Result<ModelCheck> check_progressive_mesh(
     const std::shared_ptr<const ProgressiveMesh>& model, const ModelCheckOptions& options = {});
 

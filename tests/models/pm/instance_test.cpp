@@ -144,40 +144,6 @@ TEST(PmModel, NewestCornerFirst) {
   }
 }
 
-// A copy of what a reader would have on its device, kept up by the changed ranges alone.
-struct DeviceCopy {
-  std::vector<std::uint32_t> indices;
-  std::vector<Vec3> positions;
-  std::vector<Vec3> normals;
-
-  template <class T>
-  static void upload(std::span<const T> from, std::span<const ElementRange> ranges,
-                     std::vector<T>& to) {
-    const std::size_t known = to.size();
-    to.resize(from.size());
-    std::copy(from.begin() + static_cast<std::ptrdiff_t>(std::min(known, from.size())), from.end(),
-              to.begin() + static_cast<std::ptrdiff_t>(std::min(known, from.size())));
-    for (const ElementRange& range : ranges) {
-      ASSERT_LE(std::size_t{range.first} + range.count, from.size());
-      std::copy_n(from.begin() + range.first, range.count, to.begin() + range.first);
-    }
-  }
-  void take(const DrawList& list) {
-    upload(list.indices, list.changed_indices, indices);
-    upload(list.positions, list.changed_vertices, positions);
-    if (!list.normals.empty()) upload(list.normals, list.changed_vertices, normals);
-  }
-  void expect_same(const DrawList& list, const std::string& where) const {
-    EXPECT_TRUE(std::equal(indices.begin(), indices.end(), list.indices.begin())) << where;
-    EXPECT_EQ(std::memcmp(positions.data(), list.positions.data(), list.positions.size_bytes()), 0)
-        << where;
-    if (!list.normals.empty()) {
-      EXPECT_EQ(std::memcmp(normals.data(), list.normals.data(), list.normals.size_bytes()), 0)
-          << where;
-    }
-  }
-};
-
 TEST(PmInstance, ChangedRangesCoverAllChanges) {
   Random random(4);
   // Changes are noted by blocks of thousands: of two large meshes, too.

@@ -46,7 +46,7 @@ void LevelTableCoder::append(const LevelTable& table, std::vector<std::byte>& by
   append_array(bytes, table.targets().subspan(base.vertices));
 }
 
-Result<LevelTable> LevelTableCoder::take(SectionReader& section) {
+Result<LevelTable> LevelTableCoder::take(SectionReader& section, std::uint64_t most_vertices) {
   LevelTable table;
   const auto levels = section.take<std::uint32_t>();
   LevelTable::Step base;
@@ -78,6 +78,7 @@ Result<LevelTable> LevelTableCoder::take(SectionReader& section) {
   if (used != exceptions) return section.fault("there are more exceptions than steps need");
   if (levels > 0 && base.vertices == 0) return section.fault("there is no vertex to split");
 
+  if (vertices > most_vertices) return section.fault("the levels have too many vertices");
   const std::uint32_t runs = section.take_count(8);
   for (std::uint32_t i = 0; i < runs; ++i) {
     const LevelTable::ErrorRun run{section.take<std::uint32_t>(), section.take<std::uint32_t>()};

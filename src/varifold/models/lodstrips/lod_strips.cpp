@@ -87,7 +87,7 @@ Result<LodStrips> decode_lod_strips(std::span<const std::byte> bytes) {
   mesh.images = take_images(section);
   take_attributes(section, mesh);
   if (!section.good()) return section.fault("the vertices end too early");
-  auto levels = LevelTableCoder::take(section);
+  auto levels = LevelTableCoder::take(section, mesh.positions.size());
   if (!levels) return tl::unexpected(std::move(levels.error()));
   if (levels->targets().size() != mesh.positions.size())
     return section.fault("the levels have another number of vertices");

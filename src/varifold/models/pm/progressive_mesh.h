@@ -70,6 +70,7 @@ class ProgressiveMesh {
   [[nodiscard]] std::uint32_t triangle_count() const { return data_.mesh.triangle_count(); }
   /// A distance in model units; see CollapseSequence::error for what it bounds.
   [[nodiscard]] float error(std::uint32_t level) const { return data_.error[level]; }
+  [[nodiscard]] bool error_is_measured() const { return data_.error_is_measured; }
   [[nodiscard]] bool moves_vertices() const { return !data_.first_placed.empty(); }
 
   /// The finest level with at most so many triangles or vertices; 0 where even the base has more.

@@ -1,0 +1,80 @@
+// All kinds of models that files hold, and a value that is any of them. A new kind is a
+// specialisation of ModelKind and its place in AllModels; nothing else in io/ knows it.
+#pragma once
+
+#include <varifold/base/result.h>
+#include <varifold/io/container_table.h>
+#include <varifold/models/mts/encoding.h>
+#include <varifold/models/mts/instance.h>
+#include <varifold/models/pm/encoding.h>
+#include <varifold/models/pm/instance.h>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace varifold {
+
+/// What a file needs to know of a kind of model: its name on the command line, the kind of its
+/// container, the tag of its only chunk, and the functions that read and write that. `kDense` says
+/// that zstd gains nothing.
+template <class Model>
+struct ModelKind;
+
+template <>
+struct ModelKind<ProgressiveMesh> {
+  using Instance = ProgressiveMeshInstance;
+  static constexpr const char* kName = "pm";
+  static constexpr std::uint32_t kFourcc = fourcc("pm  ");
+  static constexpr std::uint32_t kChunk = fourcc("STRM");
+  static constexpr bool kDense = true;
+  static Result<ProgressiveMesh> decode(std::span<const std::byte> bytes) {
+    return decode_progressive_mesh(bytes);
+  }
+  static std::vector<std::byte> encode(const ProgressiveMesh& model) {
+    return encode_progressive_mesh(model);
+  }
+};
+
+template <>
+struct ModelKind<MultiresolutionStrips> {
+  using Instance = MultiresolutionStripsInstance;
+  static constexpr const char* kName = "mts";
+  static constexpr std::uint32_t kFourcc = fourcc("mts ");
+  static constexpr std::uint32_t kChunk = fourcc("DATA");
+  static constexpr bool kDense = false;
+  static Result<MultiresolutionStrips> decode(std::span<const std::byte> bytes) {
+    return decode_mts(bytes);
+  }
+  static std::vector<std::byte> encode(const MultiresolutionStrips& model) {
+    return encode_mts(model);
+  }
+};
+
+template <class... Models>
+struct ModelList {
+  using Any = std::variant<std::shared_ptr<const Models>...>;
+  /// Calls visit.operator()<Model>() for each kind.
+  template <class Visit>
+  static void for_each(const Visit& visit) {
+    (visit.template operator()<Models>(), ...);
+  }
+};
+using AllModels = ModelList<ProgressiveMesh, MultiresolutionStrips>;
+
+/// One immutable model of any kind; std::visit with a generic lambda, whose parameter is a
+/// std::shared_ptr<const Model>. All kinds satisfy UniformModel, their instances UniformInstance.
+using AnyModel = AllModels::Any;
+
+template <class Model>
+using InstanceOf = typename ModelKind<Model>::Instance;
+
+/// As on the command line and in JSON: "pm", "mts", ...
+[[nodiscard]] std::string kind_name(const AnyModel& model);
+/// The names of all kinds with commas between.
+[[nodiscard]] std::string known_kinds();
+
+}  // namespace varifold

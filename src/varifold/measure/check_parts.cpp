@@ -1,0 +1,96 @@
+#include <varifold/measure/check_parts.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace varifold::check {
+
+WeldMap ModelPoints::at_level(std::uint32_t level, std::uint32_t vertices) const {
+  WeldMap weld;
+  weld.class_of.assign(point_of.begin(), point_of.begin() + vertices);
+  weld.class_count = base_points + level;
+  return weld;
+}
+
+std::vector<std::uint32_t> levels_to_visit(std::uint32_t finest, const ModelCheckOptions& options) {
+  std::vector<std::uint32_t> levels;
+  const bool all = finest <= options.all_levels_up_to;
+  const std::uint32_t half = std::max(1u, options.spread_levels / 2);
+  for (std::uint32_t k = 0; all && k <= finest; ++k) levels.push_back(k);
+  for (std::uint32_t i = 0; !all && i <= half; ++i) {
+    const double part = static_cast<double>(i) / half;
+    levels.push_back(static_cast<std::uint32_t>(part * finest));
+    levels.push_back(static_cast<std::uint32_t>(std::pow(static_cast<double>(finest), part)));
+  }
+  levels.push_back(0);
+  levels.push_back(finest);
+  std::sort(levels.begin(), levels.end());
+  levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
+  return levels;
+}
+
+CanonicalTriangle canonical(CanonicalTriangle triangle) {
+  std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.begin() + 3),
+              triangle.begin() + 3);
+  return triangle;
+}
+
+std::vector<CanonicalTriangle> canonical_triangles(const TriangleMesh& mesh) {
+  const std::vector<std::uint32_t> materials = triangle_materials(mesh);
+  std::vector<CanonicalTriangle> triangles(mesh.triangle_count());
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    triangles[t] = canonical(
+        {mesh.indices[3 * t], mesh.indices[3 * t + 1], mesh.indices[3 * t + 2], materials[t]});
+  std::sort(triangles.begin(), triangles.end());
+  return triangles;
+}
+
+TriangleDifferences compare_triangles(const std::vector<CanonicalTriangle>& expected,
+                                      const std::vector<CanonicalTriangle>& found) {
+  TriangleDifferences differences;
+  std::size_t e = 0, f = 0;
+  while (e < expected.size() || f < found.size()) {
+    if (f == found.size() || (e < expected.size() && expected[e] < found[f])) {
+      differences.lost = true;
+      ++e;
+    } else if (e == expected.size() || found[f] < expected[e]) {
+      const bool again = e > 0 && expected[e - 1] == found[f];
+      (again ? differences.doubled : differences.wrong) = true;
+      ++f;
+    } else {
+      ++e;
+      ++f;
+    }
+  }
+  return differences;
+}
+
+bool indices_exist(const DrawList& list, std::uint32_t vertices) {
+  for (const DrawRange& range : list.ranges) {
+    if (std::uint64_t{range.first_index} + range.index_count > list.indices.size()) return false;
+    const bool is_strip = range.primitive == Primitive::kStrips;
+    for (const std::uint32_t v : list.indices.subspan(range.first_index, range.index_count))
+      if (v >= vertices && !(is_strip && v == kStripRestart)) return false;
+  }
+  return true;
+}
+
+std::uint64_t fingerprint_of(const DrawList& list, const TriangleMesh& attributes) {
+  ChecksumStream sum;
+  sum.add(std::as_bytes(list.indices));
+  if (list.positions.data() != attributes.positions.data()) {
+    sum.add(std::as_bytes(list.positions));
+    sum.add(std::as_bytes(list.normals));
+    sum.add(std::as_bytes(list.texcoords));
+    sum.add(std::as_bytes(list.colors));
+  }
+  for (const DrawRange& range : list.ranges) {
+    const std::array<std::uint32_t, 4> words{range.first_index, range.index_count,
+                                             static_cast<std::uint32_t>(range.primitive),
+                                             range.material};
+    sum.add(std::as_bytes(std::span(words)));
+  }
+  return sum.value();
+}
+
+}  // namespace varifold::check

@@ -1,0 +1,262 @@
+// Private to this folder: how a uniform model of any kind is checked.
+#pragma once
+
+#include <varifold/base/checksum.h>
+#include <varifold/base/parallel.h>
+#include <varifold/measure/check_model.h>
+#include <varifold/measure/check_parts.h>
+#include <varifold/measure/surface_distance.h>
+#include <varifold/mesh/normals.h>
+#include <varifold/mesh/topology.h>
+#include <varifold/mesh/weld.h>
+#include <varifold/models/pm/instance.h>
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <span>
+#include <string>
+#include <utility>
+
+namespace varifold {
+
+/// The mesh that all levels come from. A progressive mesh holds triangles that it may forget to
+/// show; strips have what they draw.
+template <class Instance>
+TriangleMesh whole_mesh(const Instance& full) {
+  return full.extract();
+}
+inline TriangleMesh whole_mesh(const ProgressiveMeshInstance& full) {
+  TriangleMesh mesh = full.extract();
+  mesh.indices = full.indices();
+  mesh.ranges = full.model().attributes().ranges;
+  return mesh;
+}
+
+template <class Instance>
+class ModelChecker {
+ public:
+  using Model = CheckedModel<Instance>;
+
+  ModelChecker(std::shared_ptr<const Model> model, const ModelCheckOptions& options)
+      : model_(std::move(model)),
+        options_(options),
+        points_(check::points_of(*model_)),
+        levels_(check::levels_to_visit(model_->finest_level(), options)) {}
+
+  Result<ModelCheck> run() {
+    check_errors();
+    if (!look_at_full_level()) {
+      ModelCheck result;
+      result.faults = faults_.list();
+      result.levels_checked = 1;
+      return result;
+    }
+    if (!walk_up() || !walk_down() || !check_distances())
+      return fail(ErrorKind::kCancelled, "cancelled while checking");
+    ModelCheck result;
+    result.faults = faults_.list();
+    result.levels_checked = static_cast<std::uint32_t>(levels_.size());
+    result.distances_checked = distances_checked_;
+    note_coincident_points(result.faults);
+    return result;
+  }
+
+ private:
+  [[nodiscard]] TopologyReport topology_at(const TriangleMesh& mesh, std::uint32_t level) const {
+    return analyze_topology(mesh, points_.at_level(level, mesh.vertex_count()), options_.threads);
+  }
+
+  // Nothing can be said of a model whose full level does not exist.
+  bool look_at_full_level() {
+    const std::uint32_t finest = model_->finest_level();
+    Instance full(model_);
+    full.go_to_level(finest);
+    if (!corners_exist(full)) return false;
+    full_mesh_ = full.extract();
+    full_triangles_ = check::canonical_triangles(whole_mesh(full));
+    full_topology_ = topology_at(full_mesh_, finest);
+    return true;
+  }
+
+  void check_errors() {
+    for (std::uint32_t k = 0; k <= model_->finest_level(); ++k) {
+      const float error = model_->error(k);
+      const bool is_distance = std::isfinite(error) && error >= 0;
+      if (!is_distance || (k > 0 && error > model_->error(k - 1)))
+        faults_.add("error_not_monotone", k);
+    }
+  }
+
+  // Up by one instance, each level also by a fresh one; all looks at levels happen here.
+  bool walk_up() {
+    Instance walker(model_);
+    for (const std::uint32_t level : levels_) {
+      if (!report_progress("walking up", level, 0)) return false;
+      walker.go_to_level(level);
+      Instance fresh(model_);
+      fresh.go_to_level(level);
+      fingerprints_.push_back(check::fingerprint(fresh));
+      if (check::fingerprint(walker) != fingerprints_.back()) faults_.add("not_identical", level);
+      if (!corners_exist(fresh)) continue;
+      const TriangleMesh mesh = fresh.extract();
+      check_counts(fresh, mesh);
+      check_corners(mesh, level);
+      check_surface(mesh, level);
+    }
+    return true;
+  }
+
+  // Down again, with a leap to one of the ends before each other level.
+  bool walk_down() {
+    Instance walker(model_);
+    Instance leaper(model_);
+    for (std::size_t i = levels_.size(); i-- > 0;) {
+      const std::uint32_t level = levels_[i];
+      if (!report_progress("walking down", model_->finest_level() - level, 1)) return false;
+      walker.go_to_level(level);
+      if (i % 8 == 0) leaper.go_to_level(i % 16 == 0 ? 0 : model_->finest_level());
+      leaper.go_to_level(level);
+      if (check::fingerprint(walker) != fingerprints_[i] ||
+          check::fingerprint(leaper) != fingerprints_[i])
+        faults_.add("not_identical", level);
+    }
+    return true;
+  }
+
+  void check_counts(const Instance& instance, const TriangleMesh& extracted) {
+    const std::uint32_t level = instance.level();
+    if (extracted.vertex_count() != model_->vertex_count(level) ||
+        extracted.triangle_count() != model_->triangle_count(level))
+      faults_.add("wrong_count", level);
+  }
+
+  // Whatever is drawn must be a vertex of the level.
+  bool corners_exist(Instance& instance) {
+    const bool exist =
+        check::indices_exist(instance.draw_list(), model_->vertex_count(instance.level()));
+    if (!exist) faults_.add("wrong_corner", instance.level(), "no vertex of the level");
+    return exist;
+  }
+
+  // The triangles must be what the history makes of those of the full mesh, each as often.
+  void check_corners(const TriangleMesh& mesh, std::uint32_t level) {
+    const auto vertices = static_cast<std::uint32_t>(points_.point_of.size());
+    std::vector<std::uint32_t> ancestor(vertices);
+    const std::uint32_t live = model_->vertex_count(level);
+    for (std::uint32_t v = 0; v < vertices; ++v)
+      ancestor[v] = v < live ? v : ancestor[points_.target[v]];
+    std::vector<check::CanonicalTriangle> expected;
+    expected.reserve(full_triangles_.size());
+    for (check::CanonicalTriangle t : full_triangles_) {
+      std::array<std::uint32_t, 3> point{};
+      for (std::size_t c = 0; c < 3; ++c) {
+        if (t[c] >= vertices) return faults_.add("wrong_corner", level);
+        t[c] = ancestor[t[c]];
+        point[c] = points_.point_of[t[c]];
+      }
+      if (point[0] != point[1] && point[1] != point[2] && point[0] != point[2])
+        expected.push_back(check::canonical(t));
+    }
+    std::sort(expected.begin(), expected.end());
+    const auto differences = check::compare_triangles(expected, check::canonical_triangles(mesh));
+    if (differences.wrong) faults_.add("wrong_corner", level);
+    if (differences.lost) faults_.add("lost_triangle", level);
+    if (differences.doubled) faults_.add("doubled_triangle", level);
+  }
+
+  void check_surface(const TriangleMesh& mesh, std::uint32_t level) {
+    const TopologyReport topology = topology_at(mesh, level);
+    const auto expect = [&](bool holds, const char* kind) {
+      if (!holds) faults_.add(kind, level);
+    };
+    expect(topology.closed || !full_topology_.closed, "not_closed");
+    expect(topology.euler_characteristic == full_topology_.euler_characteristic, "euler_changed");
+    expect(topology.components == full_topology_.components, "components_changed");
+    expect(topology.degenerate_triangles == 0, "degenerate_triangle");
+    expect(topology.duplicate_triangles <= full_topology_.duplicate_triangles,
+           "new_duplicate_triangle");
+    expect(topology.nonmanifold_edges <= full_topology_.nonmanifold_edges, "new_nonmanifold_edge");
+    expect(topology.misoriented_edges <= full_topology_.misoriented_edges, "new_misoriented_edge");
+    if (const std::size_t flipped = flipped_beyond_rounding(mesh); flipped > 0)
+      faults_.add("flipped_triangle", level, std::to_string(flipped) + " triangles");
+  }
+
+  // A triangle thinner than positions were rounded may be turned by that alone.
+  [[nodiscard]] std::size_t flipped_beyond_rounding(const TriangleMesh& mesh) const {
+    const double thin = 4.0 * model_->error(model_->finest_level());
+    const auto flipped = flipped_triangles(mesh, full_mesh_, options_.threads);
+    return static_cast<std::size_t>(
+        std::count_if(flipped.begin(), flipped.end(), [&](std::uint32_t t) {
+          double longest = 0;
+          for (int c = 0; c < 3; ++c)
+            longest = std::max<double>(
+                longest,
+                glm::length(mesh.positions[mesh.indices[3 * std::size_t{t} + c]] -
+                            mesh.positions[mesh.indices[3 * std::size_t{t} + (c + 1) % 3]]));
+          return 2 * triangle_area(mesh, t) > thin * longest;
+        }));
+  }
+
+  // A spread of levels by the logarithm of their number: the coarse ones have the large errors.
+  bool check_distances() {
+    if (!model_->error_is_measured() || full_mesh_.indices.empty()) return true;
+    const std::uint32_t finest = model_->finest_level();
+    std::vector<std::uint32_t> chosen{0};
+    for (std::uint32_t i = 0; i < options_.distance_levels; ++i)
+      chosen.push_back(static_cast<std::uint32_t>(
+          std::pow(finest + 1.0, (i + 0.5) / options_.distance_levels) - 1));
+    chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
+    for (const std::uint32_t level : chosen) {
+      if (!report_progress("measuring", level, 2)) return false;
+      check_distance(level);
+    }
+    distances_checked_ = static_cast<std::uint32_t>(chosen.size());
+    return true;
+  }
+
+  void check_distance(std::uint32_t level) {
+    Instance instance(model_);
+    instance.go_to_level(level);
+    const SurfaceDistance surface(instance.extract());
+    // Even a point on a triangle is a few bits of a double away from it.
+    double reach = 0;
+    for (const Vec3& p : full_mesh_.positions) reach = std::max<double>(reach, glm::length(p));
+    const double bound =
+        model_->error(level) * (1 + 1e-5) + model_->error(model_->finest_level()) + 1e-12 * reach;
+    std::atomic<bool> is_exceeded{false};
+    parallel_for(options_.threads, full_mesh_.positions.size(), 4096,
+                 [&](std::size_t begin, std::size_t end) {
+                   for (std::size_t v = begin; v < end && !is_exceeded; ++v)
+                     if (surface.distance(DVec3(full_mesh_.positions[v])) > bound)
+                       is_exceeded = true;
+                 });
+    if (is_exceeded) faults_.add("error_exceeded", level);
+  }
+
+  void note_coincident_points(std::vector<Fault>& faults) const {
+    const std::uint32_t points = points_.base_points + model_->finest_level();
+    const std::uint32_t positions = weld_exact(full_mesh_.positions).class_count;
+    if (positions < points)
+      faults.push_back({"coincident_point", points - positions, "the full level", Severity::kNote});
+  }
+
+  [[nodiscard]] bool report_progress(const char* stage, std::uint32_t done, int part) const {
+    const float finest = static_cast<float>(std::max(1u, model_->finest_level()));
+    return report(options_.progress, stage,
+                  (static_cast<float>(part) + static_cast<float>(done) / finest) / 3);
+  }
+
+  std::shared_ptr<const Model> model_;
+  const ModelCheckOptions& options_;
+  check::ModelPoints points_;
+  std::vector<std::uint32_t> levels_;
+  std::vector<check::CanonicalTriangle> full_triangles_;
+  TriangleMesh full_mesh_;
+  TopologyReport full_topology_;
+  std::vector<std::uint64_t> fingerprints_;  ///< per visited level, by a fresh instance
+  check::LevelFaults faults_;
+  std::uint32_t distances_checked_ = 0;
+};
+
+}  // namespace varifold
