@@ -156,4 +156,11 @@ TriangleStrips SequenceStrips::strips() const {
   return strips;
 }
 
+TriangleStrips stripify_along_sequence(const DetailedMesh& detailed) {
+  const SequenceHistory history(detailed);
+  SequenceStrips strips(detailed, history);
+  while (strips.level() < detailed.sequence.step_count()) strips.split();
+  return strips.strips();
+}
+
 }  // namespace varifold

@@ -183,4 +183,7 @@ class SequenceStrips {
   std::vector<std::uint32_t> unplaced_;  // new triangles that are in no strip yet
 };
 
+/// The strips that SequenceStrips has at the full level: for models whose strips are static. O(n).
+[[nodiscard]] TriangleStrips stripify_along_sequence(const DetailedMesh& detailed);
+
 }  // namespace varifold
