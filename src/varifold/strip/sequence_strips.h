@@ -1,7 +1,7 @@
 // Strips that grow along a collapse sequence: made for the base mesh, then changed by every split
 // so that they stay long at all levels.
 //
-// Based on: the idea of building strips from the coarsest level on, [Ripolles2005], and the strips
+// Based on: the idea of building strips from the coarsest level on, [RipollesChoverRamos2005], and the strips
 // of
 //   [Ramos2008] chapter 4, whose degenerate runs this turns round: the run that a collapse would
 //   leave behind is where a split puts its new triangle.
