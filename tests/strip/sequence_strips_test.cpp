@@ -154,9 +154,7 @@ TEST(SequenceStrips, RealMeshesStayShort) {
       strips.split();
       const std::uint32_t triangles = detailed.sequence.triangles[strips.level()];
       if (triangles <= 500 || strips.level() % 16 != 0) continue;
-      // Seams cost a little: spot reaches 1.8504.
-      ASSERT_LE(static_cast<double>(slots_with_restarts(strips)) / triangles,
-                detailed.mesh.has_texcoords() ? 1.86 : 1.85)
+      ASSERT_LE(static_cast<double>(slots_with_restarts(strips)) / triangles, 1.85)
           << name << " level " << strips.level();
     }
   }

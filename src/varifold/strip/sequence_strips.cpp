@@ -26,34 +26,7 @@ SequenceStrips::SequenceStrips(const DetailedMesh& detailed, const SequenceHisto
     }
   }
   last_block_.assign(std::max<std::size_t>(1, detailed.mesh.ranges.size()), kNone);
-  link_base();
-  for (std::uint32_t t = 0; t < triangles; ++t)
-    if (sequence_.triangle_level[t] == 0) unplaced_.push_back(t);
-  changes_.clear();
-  place_new_triangles();
-  changes_.clear();
-}
-
-// Neighbours of the base: edges sorted by their vertices, pairs of opposite direction linked.
-void SequenceStrips::link_base() {
-  for (std::uint32_t t = 0; t < sequence_.triangle_level.size(); ++t)
-    for (std::uint32_t e = 0; e < 3 && sequence_.triangle_level[t] == 0; ++e)
-      open_.push_back({t, e});
-  const auto key = [&](const Edge& edge) {
-    const std::uint32_t a = corner(edge), b = corner({edge.triangle, edge.edge + 1});
-    return std::pair(std::min(a, b), std::max(a, b));
-  };
-  std::sort(open_.begin(), open_.end(), [&](const Edge& a, const Edge& b) {
-    const auto ka = key(a), kb = key(b);
-    return ka != kb ? ka < kb : a.triangle < b.triangle;
-  });
-  for (std::size_t i = 0, end = 0; i < open_.size(); i = end) {
-    for (end = i + 1; end < open_.size() && key(open_[end]) == key(open_[i]);) ++end;
-    if (end != i + 2 || !matches(open_[i], open_[i + 1])) continue;
-    neighbor_[3 * open_[i].triangle + open_[i].edge] = open_[i + 1].triangle;
-    neighbor_[3 * open_[i + 1].triangle + open_[i + 1].edge] = open_[i].triangle;
-  }
-  open_.clear();
+  load_base(detailed);
 }
 
 // True where the two edges are one edge of the surface: the same vertices, opposite directions, one

@@ -1,8 +1,8 @@
 // Strips that grow along a collapse sequence: made for the base mesh, then changed by every split
 // so that they stay long at all levels.
 //
-// Based on: the idea of building strips from the coarsest level on, [RipollesChoverRamos2005], and the strips
-// of
+// Based on: the idea of building strips from the coarsest level on, [RipollesChoverRamos2005], and
+// the strips of
 //   [Ramos2008] chapter 4, whose degenerate runs this turns round: the run that a collapse would
 //   leave behind is where a split puts its new triangle.
 // Differs: strips lie in blocks of a bounded number of slots, divided by restarts. They may be
@@ -126,7 +126,8 @@ class SequenceStrips {
     std::uint32_t cost = kNone, block = 0, place = 0, value = 0, rotation = 0;
   };
 
-  void link_base();
+  void load_base(const DetailedMesh& detailed);
+  void load_strips(const TriangleMesh& base, const std::vector<std::uint32_t>& triangles);
   void link_open_edges();
   void gather_corners();
   void update_links();
