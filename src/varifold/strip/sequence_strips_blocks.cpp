@@ -120,12 +120,16 @@ std::uint32_t SequenceStrips::claim_new_triangles(std::uint32_t b) {
 
 // Takes its area from a triangle that should have none.
 void SequenceStrips::break_run(std::uint32_t b, std::uint32_t place) {
-  const std::uint32_t next = blocks_[b].slots[place + 1];
-  // A slot at the beginning that only turns the strip follows the one after it.
-  if (strip_begin(blocks_[b], place) == place && blocks_[b].slots[place] == sequence_.target[next])
-    apply({StripChange::kSet, static_cast<std::uint8_t>(place), 0, b, next});
-  else
-    cut_strip(b, place + 1);
+  const std::uint32_t* const slots = blocks_[b].slots + place;
+  if (strip_begin(blocks_[b], place) == place) {
+    // The first slot belongs to no other triangle: it only repeats one of the next two.
+    for (const std::uint32_t vertex : {slots[1], slots[2]}) {
+      if (vertex < sequence_.vertices[level_] || sequence_.target[vertex] != slots[0]) continue;
+      apply({StripChange::kSet, static_cast<std::uint8_t>(place), 0, b, vertex});
+      return;
+    }
+  }
+  cut_strip(b, place + 1);
 }
 
 // Ends the strip before the triangle at `place` and lets the next one begin there. The slots that

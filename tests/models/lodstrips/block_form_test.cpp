@@ -6,6 +6,7 @@
 
 #include <varifold/base/random.h>
 #include <varifold/io/mesh_file.h>
+#include <varifold/mesh/generators.h>
 #include <varifold/models/lodstrips/lod_strips.h>
 #include <varifold/simplify/simplify.h>
 #include <algorithm>
@@ -147,6 +148,24 @@ TEST(BlockForm, ComesBackFromItsBytes) {
                                     }()),
               "")
         << strips.name;
+  }
+}
+
+// Large enough for every kind of change, also the rare ones.
+TEST(BlockForm, LargeMeshesComeBackFromTheirBytes) {
+  PlanetOptions options;
+  options.triangles = 300000;
+  const DetailedMesh detailed = simplified(planet(options));
+  const LodStrips model = build_lod_strips(detailed);
+  const auto decoded = decode_lod_strips(encode_lod_strips(model));
+  ASSERT_TRUE(decoded) << decoded.error().message;
+  LodStripsInstance instance(std::make_shared<const LodStrips>(*decoded));
+  for (const std::uint32_t level : test::spread_levels(model.finest_level())) {
+    if (level % 5 != 0) continue;
+    instance.go_to_level(level);
+    ASSERT_EQ(test::triangle_set(instance.extract()),
+              test::triangle_set(mesh_at_level(detailed, level)))
+        << "level " << level;
   }
 }
 
