@@ -7,7 +7,7 @@
 #include <varifold/base/random.h>
 #include <varifold/io/mesh_file.h>
 #include <varifold/mesh/generators.h>
-#include <varifold/models/lodstrips/lod_strips.h>
+#include <varifold/models/lodstrips/build.h>
 #include <varifold/simplify/simplify.h>
 #include <algorithm>
 #include <memory>
