@@ -9,6 +9,7 @@
 #include <varifold/models/common/level_table.h>
 #include <varifold/models/lodstrips/block_form.h>
 #include <varifold/view/draw_list.h>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -22,6 +23,8 @@ namespace varifold {
 enum class LodStripsForm : std::uint8_t {
   kBlocks,  ///< strips built from coarse to fine, in blocks: block_form.h
 };
+
+inline constexpr std::array<LodStripsForm, 1> kLodStripsForms = {LodStripsForm::kBlocks};
 
 /// "blocks", ...
 [[nodiscard]] std::string_view form_name(LodStripsForm form);
