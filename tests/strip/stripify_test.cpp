@@ -91,7 +91,9 @@ TEST(Stripify, KeepsToTheLimitOfIndices) {
              const std::string& what) {
     for (std::uint32_t s = 0; s < strips.count(); ++s) {
       EXPECT_GE(strips.strip(s).size(), 3u) << what;
-      if (options.max_indices != 0) EXPECT_LE(strips.strip(s).size(), options.max_indices) << what;
+      if (options.max_indices != 0) {
+        EXPECT_LE(strips.strip(s).size(), options.max_indices) << what;
+      }
     }
   });
 }
