@@ -46,32 +46,28 @@ inline NamedSequence make_sequence(const std::string& name, const TriangleMesh& 
   return result;
 }
 
-/// A double pyramid whose waist is a seam: vertices of the waist have two wedges, and so has the
-/// upper tip, one for either half of its faces. Collapses along the seam make triangles vanish
-/// whose corners differ.
-inline TriangleMesh seamed_pyramid() {
-  TriangleMesh mesh;
-  constexpr std::uint32_t kSides = 12;
-  const auto add = [&](Vec3 position, float u) {
-    mesh.positions.push_back(position);
-    mesh.texcoords.push_back({u, 0});
-    return mesh.vertex_count() - 1;
-  };
-  std::vector<std::uint32_t> upper, lower;
-  for (std::uint32_t i = 0; i < kSides; ++i) {
-    const float x = i < kSides / 2 ? static_cast<float>(i) : static_cast<float>(kSides - i);
-    const float y = static_cast<float>((i * 5) % kSides) / 3 + (i < kSides / 2 ? 0.f : 6.f);
-    upper.push_back(add({x, y, 0}, 0));
-    lower.push_back(add({x, y, 0}, 1));
-  }
-  const std::uint32_t tips[3] = {add({3, 3, 4}, 0.2f), add({3, 3, 4}, 0.4f), add({3, 3, -4}, 1)};
-  for (std::uint32_t i = 0; i < kSides; ++i) {
-    const std::uint32_t j = (i + 1) % kSides;
-    for (const std::uint32_t v : {upper[i], upper[j], tips[i < kSides / 2 ? 0 : 1]})
-      mesh.indices.push_back(v);
-    for (const std::uint32_t v : {lower[j], lower[i], tips[2]}) mesh.indices.push_back(v);
-  }
-  return mesh;
+/// A seam that ends at a vertex: 0 and 1 are wedges of one point, and 4 goes to 0. The triangle on
+/// 1 and 4 vanishes then, although its corners 1, 0 and 3 are three vertices.
+///
+///     3-----2
+///     |  \  |     in the strip 1 4 3 / 4 2 3 / 4 0 2
+///     4     |
+///     |\ \  |
+///     1 0 --+
+inline NamedSequence torn_seam() {
+  NamedSequence result;
+  result.name = "torn seam";
+  TriangleMesh& mesh = result.detailed.mesh;
+  mesh.positions = {{0, 0, 0}, {0, 0, 0}, {2, 1, 0}, {0, 2, 0}, {0, 1, 0}};
+  mesh.indices = {4, 2, 3, 4, 0, 2, 1, 4, 3};
+  CollapseSequence& sequence = result.detailed.sequence;
+  sequence.target = {kNone, kNone, kNone, kNone, 0};
+  sequence.triangle_level = {0, 1, 1};
+  sequence.vertices = {4, 5};
+  sequence.triangles = {1, 3};
+  sequence.error = {1, 0};
+  result.table = LevelTable(sequence);
+  return result;
 }
 
 /// Every test mesh; made once.
@@ -80,7 +76,7 @@ inline const std::vector<NamedSequence>& all_sequences() {
     std::vector<NamedSequence> made;
     for (const NamedMesh& named : all_groups())
       made.push_back(make_sequence(named.name, named.mesh));
-    made.push_back(make_sequence("seamed_pyramid", seamed_pyramid()));
+    made.push_back(torn_seam());
     return made;
   }();
   return sequences;
