@@ -8,6 +8,6 @@ void register_progressive_mesh();
 void register_io();
 void register_measure();
 void register_strips();
-void register_lod_strips();
+void register_lodstrips();
 
 }  // namespace varifold::bench
