@@ -183,6 +183,23 @@ TYPED_TEST(StaticForm, DamagedBytesAreRefusedOrHarmless) {
   EXPECT_GT(harmless, 0u);
 }
 
+TYPED_TEST(StaticForm, VeryLongStripsAreCut) {
+  NamedSequence sequence;
+  sequence.detailed.mesh = test::grid(40000, 1);
+  sequence.detailed.sequence.vertices = {sequence.detailed.mesh.vertex_count()};
+  sequence.detailed.sequence.triangles = {sequence.detailed.mesh.triangle_count()};
+  sequence.detailed.sequence.error = {0};
+  sequence.detailed.sequence.triangle_level.assign(sequence.detailed.mesh.triangle_count(), 0);
+  sequence.detailed.sequence.target.assign(sequence.detailed.mesh.vertex_count(), kNone);
+  sequence.table = LevelTable(sequence.detailed.sequence);
+  ASSERT_EQ(stripify(sequence.detailed.mesh).count(), 1u);
+  const auto form = this->build(sequence);
+  EXPECT_EQ(form.strips.count(), 2u);
+  EXPECT_TRUE(this->take(this->bytes_of(form), sequence));
+  auto cursor = this->cursor(form, sequence);
+  this->expect_level(cursor, sequence, 0);
+}
+
 // Models of meshes with vertices of several wedges have steps that move several of them.
 TYPED_TEST(StaticForm, SeamsThatEndInsideTheSurface) {
   for (const char* name : {"CesiumMan.glb", "DamagedHelmet.glb"}) {

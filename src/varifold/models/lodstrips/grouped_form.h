@@ -14,8 +14,6 @@ namespace varifold {
 /// collapse, how many removals of type one and two, and the positions of all of them. Groups stand
 /// from the finest level down. Immutable; indices only.
 struct GroupedForm {
-  /// Longest strip; longer ones are cut. Positions are 16 bits.
-  static constexpr std::uint32_t kMostIndices = 0xffff;
   /// The number of a strip is in the lower bits.
   static constexpr std::uint32_t kStripMask = 0x3fffffffu;
   static constexpr std::uint32_t kLast = 0x80000000u;      ///< the last group of a level

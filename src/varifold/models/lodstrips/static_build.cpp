@@ -12,8 +12,6 @@ namespace {
 using Kind = StripChange::Kind;
 using Record = ThesisForm::Record;
 
-constexpr std::uint32_t kMostIndices = ThesisForm::kLast - 1;
-
 void append_change(const StripChange& change, std::size_t level_begin,
                    std::vector<Record>& records) {
   if (change.kind == Kind::kCollapse) {
@@ -84,7 +82,7 @@ class GroupWriter {
 
 ThesisForm build_thesis_form(const DetailedMesh& detailed, const TriangleStrips& full_strips) {
   ThesisForm form;
-  form.strips = cut_for_removal(detailed, full_strips, kMostIndices);
+  form.strips = cut_for_removal(detailed, full_strips, kMostStrip);
   StaticRemoval removal(detailed, form.strips);
   while (removal.level() > 0) {
     const std::size_t begin = form.records.size();
@@ -98,7 +96,7 @@ ThesisForm build_thesis_form(const DetailedMesh& detailed, const TriangleStrips&
 
 GroupedForm build_grouped_form(const DetailedMesh& detailed, const TriangleStrips& full_strips) {
   GroupedForm form;
-  form.strips = cut_for_removal(detailed, full_strips, GroupedForm::kMostIndices);
+  form.strips = cut_for_removal(detailed, full_strips, kMostStrip);
   StaticRemoval removal(detailed, form.strips);
   GroupWriter writer(form);
   while (removal.level() > 0) {

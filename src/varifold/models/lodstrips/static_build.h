@@ -13,9 +13,9 @@ namespace varifold {
 /// cut that it costs one index in a hundred.
 inline constexpr std::uint32_t kStaticStripIndices = 64;
 
-/// `full_strips` are of detailed.mesh, as by stripify(). Strips are cut where a triangle vanishes
-/// at a seam (static_removal.h). O(n), and a scan of every strip that a collapse touches, so that
-/// long strips are slow.
+/// `full_strips` are of detailed.mesh, as by stripify(). Strips are cut where they have more than
+/// kMostStrip indices, and where a triangle vanishes at a seam (static_removal.h). O(n), and a scan
+/// of every strip that a collapse touches, so that long strips are slow.
 [[nodiscard]] ThesisForm build_thesis_form(const DetailedMesh& detailed,
                                            const TriangleStrips& full_strips);
 /// The same levels in grouped records.

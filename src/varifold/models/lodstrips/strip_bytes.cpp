@@ -24,7 +24,8 @@ Result<TriangleStrips> take_strips(SectionReader& section, std::uint32_t vertex_
   strips.first.reserve(std::size_t{count} + 1);
   for (const std::uint32_t length : lengths) {
     total += length;
-    if (length < kLeastStrip || total > kMost) return section.fault("a strip has a wrong length");
+    if (length < kLeastStrip || length > kMostStrip || total > kMost)
+      return section.fault("a strip has a wrong length");
     strips.first.push_back(static_cast<std::uint32_t>(total));
   }
   const std::uint32_t ranges = std::max(1u, material_range_count);

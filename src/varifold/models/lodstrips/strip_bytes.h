@@ -11,8 +11,8 @@
 namespace varifold {
 
 void append_strips(const TriangleStrips& strips, std::vector<std::byte>& bytes);
-/// Every strip has at least three indices, all below `vertex_count`, and a material range below
-/// `material_range_count`, or 0 where there are none. kInvalidInput.
+/// Every strip has kLeastStrip to kMostStrip indices, all below `vertex_count`, and a material
+/// range below `material_range_count`, or 0 where there are none. kInvalidInput.
 [[nodiscard]] Result<TriangleStrips> take_strips(SectionReader& section, std::uint32_t vertex_count,
                                                  std::uint32_t material_range_count);
 

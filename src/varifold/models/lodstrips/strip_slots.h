@@ -13,6 +13,9 @@ namespace varifold {
 /// A strip of fewer indices draws nothing.
 inline constexpr std::uint32_t kLeastStrip = 3;
 
+/// No strip has more indices, so that a position fits 16 bits and no change shifts more than that.
+inline constexpr std::uint32_t kMostStrip = 0xffff;
+
 /// One buffer in which every strip has the place that it fills at full detail, where it is longest.
 /// What is removed from a strip stays behind its end, so that putting it back needs no values from
 /// elsewhere, and leaves the very bytes that were there before.
