@@ -1,0 +1,100 @@
+// varifold build strips|lodstrips|mts: a mesh becomes a model of triangle strips.
+#include <apps/cli/build_common.h>
+#include <apps/cli/stripifier.h>
+#include <varifold/models/mts/build.h>
+#include <memory>
+
+namespace varifold::cli {
+namespace {
+
+struct BuildStripsCommand {
+  BuildOptions build;
+  StripifierOptions stripifier;
+};
+
+// One specialisation for each kind: what its subcommand says, the options that it alone has, and
+// how it is built. Strips of full detail are made for those that ask for them.
+template <class Model>
+struct StripsBuild;
+
+template <>
+struct StripsBuild<MultiresolutionStrips> {
+  static constexpr const char* kHelp = "Multiresolution triangle strips (MTS), a baseline";
+  struct Options {};
+  static void add_options(CLI::App&, Options&) {}
+  static MultiresolutionStrips build(const DetailedMesh& detailed, const TriangleStrips& strips,
+                                     const Options&) {
+    return build_mts(detailed, strips);
+  }
+};
+
+// What is drawn at full detail.
+template <class Model>
+void report_strips(const std::shared_ptr<const Model>& model, Report& report) {
+  InstanceOf<Model> instance(model);
+  instance.go_to_level(model->finest_level());
+  const SubmittedIndices sent = submitted_indices(instance.draw_list());
+  const std::uint32_t triangles = model->triangle_count(model->finest_level());
+  // With a restart between any two strips.
+  const auto indices =
+      static_cast<double>(sent.vertices + std::max<std::uint64_t>(1, sent.strips) - 1);
+  report.count("strips", "strips", sent.strips);
+  report.length("indices_per_triangle", "indices a triangle", indices / std::max(1u, triangles));
+}
+
+template <class Model>
+struct StripsCommand : BuildStripsCommand {
+  typename StripsBuild<Model>::Options own;
+};
+
+template <class Model>
+CommandResult run_build(const StripsCommand<Model>& command) {
+  const auto input = input_path(command.build.input), output = output_path(command.build.output);
+  if (command.build.flags.placement == "optimal")
+    wrong_usage("--placement optimal: strips name vertices, they do not move them; use kept");
+  if (auto writable = check_output(output, command.build.common); !writable)
+    return tl::unexpected(writable.error());
+  const Stopwatch watch;
+  auto simplified = simplify_input(command.build);
+  if (!simplified) return tl::unexpected(simplified.error());
+  BuildTimes times;
+  const Stopwatch model_watch;
+  const TriangleStrips strips = make_strips(simplified->detailed, command.stripifier);
+  const auto model = std::make_shared<const Model>(
+      StripsBuild<Model>::build(simplified->detailed, strips, command.own));
+  times.model = model_watch.seconds();
+  simplified->detailed = {};
+  if (auto done = check_interrupted(input); !done) return tl::unexpected(done.error());
+  const Stopwatch write_watch;
+  const auto file = write_model(*model, output);
+  if (!file) return tl::unexpected(file.error());
+  times.write = write_watch.seconds();
+
+  Report report;
+  report_model(*model, *file, simplified->faults, report);
+  report_strips(model, report);
+  report_stop(simplified->stop, input, report);
+  times.all = watch.seconds();
+  report_times(*simplified, times, report);
+  return finish(report, command.build.common, output);
+}
+
+template <class Model>
+void add_kind(CLI::App& build, CommandRunner& runner) {
+  CLI::App* const command =
+      build.add_subcommand(ModelKind<Model>::kName, StripsBuild<Model>::kHelp);
+  const auto options = std::make_shared<StripsCommand<Model>>();
+  add_build_options(*command, options->build);
+  add_stripifier_options(*command, options->stripifier);
+  StripsBuild<Model>::add_options(*command, options->own);
+  runner.add_common(*command, options->build.common, true);
+  runner.attach(*command, options->build.common, [options] { return run_build<Model>(*options); });
+}
+
+}  // namespace
+
+void add_build_strips(CLI::App& build, CommandRunner& runner) {
+  add_kind<MultiresolutionStrips>(build, runner);
+}
+
+}  // namespace varifold::cli
