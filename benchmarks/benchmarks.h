@@ -7,5 +7,6 @@ void register_simplify();
 void register_progressive_mesh();
 void register_io();
 void register_measure();
+void register_strips();
 
 }  // namespace varifold::bench

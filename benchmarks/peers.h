@@ -3,6 +3,7 @@
 
 #include <varifold/mesh/triangle_mesh.h>
 #include <cstdint>
+#include <vector>
 
 namespace varifold::bench {
 
@@ -10,5 +11,11 @@ namespace varifold::bench {
 /// `triangles` triangles, if it gets there.
 [[nodiscard]] TriangleMesh meshoptimizer_simplify(const TriangleMesh& mesh,
                                                   std::uint32_t triangles);
+
+/// meshoptimizer's order of triangles for a vertex cache, as a list.
+[[nodiscard]] std::vector<std::uint32_t> meshoptimizer_cache_order(const TriangleMesh& mesh);
+
+/// meshoptimizer's strips of its order for strips, divided by kStripRestart.
+[[nodiscard]] std::vector<std::uint32_t> meshoptimizer_strips(const TriangleMesh& mesh);
 
 }  // namespace varifold::bench

@@ -30,17 +30,18 @@ class ChangedBlocks {
   void mark_all() { std::fill(blocks_.begin(), blocks_.end(), std::uint8_t{1}); }
 
   /// The changed elements since the last call, neighbouring blocks joined; valid until the next.
-  [[nodiscard]] std::span<const ElementRange> take() {
+  /// `behind`: up to so many elements behind a marked one have changed too.
+  [[nodiscard]] std::span<const ElementRange> take(std::uint32_t behind = 0) {
     ranges_.clear();
     for (std::uint32_t i = 0; i < blocks_.size() && (i << kBits) < size_; ++i) {
       if (!blocks_[i]) continue;
       blocks_[i] = 0;
       const std::uint32_t first = i << kBits;
-      const std::uint32_t count = std::min(size_ - first, 1u << kBits);
-      if (!ranges_.empty() && ranges_.back().first + ranges_.back().count == first)
-        ranges_.back().count += count;
+      const std::uint32_t end = first + std::min(size_ - first, (1u << kBits) + behind);
+      if (!ranges_.empty() && ranges_.back().first + ranges_.back().count >= first)
+        ranges_.back().count = end - ranges_.back().first;
       else
-        ranges_.push_back({first, count});
+        ranges_.push_back({first, end - first});
     }
     return ranges_;
   }

@@ -10,8 +10,8 @@ namespace varifold {
 LevelTable::LevelTable(const CollapseSequence& sequence)
     : target_(sequence.target), error_is_measured_(sequence.error_is_measured) {
   const std::uint32_t steps = sequence.step_count();
-  if (!sequence.vertices.empty()) base_ = {sequence.vertices[0], sequence.triangles[0]};
-  steps_.reserve(steps);
+  if (!sequence.vertices.empty()) end_ = {sequence.vertices[0], sequence.triangles[0]};
+  groups_[0].counts = end_;
   for (std::uint32_t k = 0; k < steps; ++k)
     push_step({sequence.vertices[k + 1] - sequence.vertices[k],
                sequence.triangles[k + 1] - sequence.triangles[k]});
@@ -26,43 +26,29 @@ LevelTable::LevelTable(const CollapseSequence& sequence)
       backwards.push_back({level, greatest});
   }
   errors_.assign(backwards.rbegin(), backwards.rend());
-  finish();
 }
 
 void LevelTable::push_step(Step step) {
-  const bool fits = step.vertices < 16 && step.triangles < 15;
-  if (!fits) exceptions_.push_back({finest_level(), step.vertices, step.triangles});
-  steps_.push_back(fits ? static_cast<std::uint8_t>(step.vertices | step.triangles << 4u)
-                        : kException);
-}
-
-void LevelTable::finish() {
-  steps_.shrink_to_fit();
-  checkpoints_.reserve(steps_.size() / kCheckpoint + 1);
-  Step counts = base_;
-  for (std::uint32_t k = 0; k <= finest_level(); ++k) {
-    if (k % kCheckpoint == 0) checkpoints_.push_back(counts);
-    if (k == finest_level()) break;
-    const Step added = step(k);
-    counts.vertices += added.vertices;
-    counts.triangles += added.triangles;
+  if (step.vertices != kRegular.vertices || step.triangles != kRegular.triangles) {
+    groups_.back().irregular |= std::uint64_t{1} << (finest_level_ % kGroup);
+    exceptions_.push_back(step);
   }
-}
-
-LevelTable::Step LevelTable::exception(std::uint32_t level) const {
-  const auto found =
-      std::lower_bound(exceptions_.begin(), exceptions_.end(), level,
-                       [](const Exception& e, std::uint32_t l) { return e.level < l; });
-  return {found->vertices, found->triangles};
+  end_.vertices += step.vertices;
+  end_.triangles += step.triangles;
+  if (++finest_level_ % kGroup == 0)
+    groups_.push_back({0, end_, static_cast<std::uint32_t>(exceptions_.size())});
 }
 
 LevelTable::Step LevelTable::counts(std::uint32_t level) const {
-  if (checkpoints_.empty()) return {};
-  Step counts = checkpoints_[level / kCheckpoint];
-  for (std::uint32_t k = level - level % kCheckpoint; k < level; ++k) {
-    const Step added = step(k);
-    counts.vertices += added.vertices;
-    counts.triangles += added.triangles;
+  const Group& group = groups_[level / kGroup];
+  const std::uint64_t before = (std::uint64_t{1} << (level % kGroup)) - 1;
+  const auto irregular = static_cast<std::uint32_t>(std::popcount(group.irregular & before));
+  const std::uint32_t regular = level % kGroup - irregular;
+  Step counts{group.counts.vertices + regular * kRegular.vertices,
+              group.counts.triangles + regular * kRegular.triangles};
+  for (std::uint32_t i = 0; i < irregular; ++i) {
+    counts.vertices += exceptions_[group.first_exception + i].vertices;
+    counts.triangles += exceptions_[group.first_exception + i].triangles;
   }
   return counts;
 }
@@ -96,7 +82,7 @@ std::uint32_t LevelTable::level_for_error(float bound) const {
 }
 
 std::uint32_t LevelTable::level_for_fraction(float fraction) const {
-  const double base = base_.vertices;
+  const double base = groups_[0].counts.vertices;
   const auto all = static_cast<double>(target_.size());
   const double clamped = std::clamp(static_cast<double>(fraction), 0.0, 1.0);
   return level_for_vertices(static_cast<std::uint32_t>(std::floor(base + clamped * (all - base))));
@@ -109,9 +95,8 @@ std::uint32_t LevelTable::ancestor(std::uint32_t vertex, std::uint32_t level) co
 }
 
 std::size_t LevelTable::bytes() const {
-  return steps_.size() + exceptions_.size() * sizeof(Exception) +
-         checkpoints_.size() * sizeof(Step) + errors_.size() * sizeof(ErrorRun) +
-         target_.size() * sizeof(std::uint32_t);
+  return groups_.size() * sizeof(Group) + exceptions_.size() * sizeof(Step) +
+         errors_.size() * sizeof(ErrorRun) + target_.size() * sizeof(std::uint32_t);
 }
 
 }  // namespace varifold
