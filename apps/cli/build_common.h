@@ -5,6 +5,7 @@
 #include <apps/cli/input.h>
 #include <apps/cli/simplify_options.h>
 #include <varifold/io/model_file.h>
+#include <varifold/models/common/uniform_model.h>
 #include <algorithm>
 #include <filesystem>
 #include <string>
@@ -44,6 +45,7 @@ void report_model(const Model& model, const ModelFileReport& file, const InputFa
   report.count("base_triangles", "base triangles", model.triangle_count(0));
   report.count("levels", "levels", std::uint64_t{finest} + 1);
   report.length("base_error", "error of the base", model.error(0));
+  report.set("error_is_measured", error_is_measured(model));
   report.length("position_error", "rounding of positions", file.position_error);
   report.bytes("model_bytes", "in memory", model.bytes());
   report.bytes("file_bytes", "file", file.file_bytes);

@@ -31,7 +31,6 @@ CommandResult run_build(const BuildCommand& command) {
 
   Report report;
   report_model(model, *file, simplified->faults, report);
-  report.set("error_is_measured", model.error_is_measured());
   report_stop(simplified->stop, input, report);
   times.all = watch.seconds();
   report_times(*simplified, times, report);

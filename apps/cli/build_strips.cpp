@@ -1,30 +1,47 @@
 // varifold build strips|lodstrips|mts: a mesh becomes a model of triangle strips.
 #include <apps/cli/build_common.h>
 #include <apps/cli/stripifier.h>
+#include <varifold/models/lodstrips/lod_strips.h>
 #include <varifold/models/mts/build.h>
 #include <memory>
 
 namespace varifold::cli {
 namespace {
 
-struct BuildStripsCommand {
-  BuildOptions build;
-  StripifierOptions stripifier;
-};
-
 // One specialisation for each kind: what its subcommand says, the options that it alone has, and
-// how it is built. Strips of full detail are made for those that ask for them.
+// how it is built.
 template <class Model>
 struct StripsBuild;
 
 template <>
 struct StripsBuild<MultiresolutionStrips> {
   static constexpr const char* kHelp = "Multiresolution triangle strips (MTS), a baseline";
-  struct Options {};
-  static void add_options(CLI::App&, Options&) {}
-  static MultiresolutionStrips build(const DetailedMesh& detailed, const TriangleStrips& strips,
-                                     const Options&) {
-    return build_mts(detailed, strips);
+  struct Options {
+    StripifierOptions stripifier;
+  };
+  static void add_options(CLI::App& command, Options& options) {
+    add_stripifier_options(command, options.stripifier);
+  }
+  static MultiresolutionStrips build(const DetailedMesh& detailed, const Options& options) {
+    return build_mts(detailed, make_strips(detailed, options.stripifier));
+  }
+};
+
+template <>
+struct StripsBuild<LodStrips> {
+  static constexpr const char* kHelp = "LodStrips: strips changed in place, ready to be drawn";
+  struct Options {
+    std::string form = "blocks";
+  };
+  static void add_options(CLI::App& command, Options& options) {
+    command
+        .add_option("--form", options.form, "blocks: strips built from coarse to fine, in blocks")
+        ->check(CLI::IsMember({"blocks"}))
+        ->capture_default_str()
+        ->type_name("FORM");
+  }
+  static LodStrips build(const DetailedMesh& detailed, const Options&) {
+    return build_lod_strips(detailed);
   }
 };
 
@@ -43,7 +60,8 @@ void report_strips(const std::shared_ptr<const Model>& model, Report& report) {
 }
 
 template <class Model>
-struct StripsCommand : BuildStripsCommand {
+struct StripsCommand {
+  BuildOptions build;
   typename StripsBuild<Model>::Options own;
 };
 
@@ -59,9 +77,8 @@ CommandResult run_build(const StripsCommand<Model>& command) {
   if (!simplified) return tl::unexpected(simplified.error());
   BuildTimes times;
   const Stopwatch model_watch;
-  const TriangleStrips strips = make_strips(simplified->detailed, command.stripifier);
-  const auto model = std::make_shared<const Model>(
-      StripsBuild<Model>::build(simplified->detailed, strips, command.own));
+  const auto model =
+      std::make_shared<const Model>(StripsBuild<Model>::build(simplified->detailed, command.own));
   times.model = model_watch.seconds();
   simplified->detailed = {};
   if (auto done = check_interrupted(input); !done) return tl::unexpected(done.error());
@@ -85,7 +102,6 @@ void add_kind(CLI::App& build, CommandRunner& runner) {
       build.add_subcommand(ModelKind<Model>::kName, StripsBuild<Model>::kHelp);
   const auto options = std::make_shared<StripsCommand<Model>>();
   add_build_options(*command, options->build);
-  add_stripifier_options(*command, options->stripifier);
   StripsBuild<Model>::add_options(*command, options->own);
   runner.add_common(*command, options->build.common, true);
   runner.attach(*command, options->build.common, [options] { return run_build<Model>(*options); });
@@ -94,6 +110,7 @@ void add_kind(CLI::App& build, CommandRunner& runner) {
 }  // namespace
 
 void add_build_strips(CLI::App& build, CommandRunner& runner) {
+  add_kind<LodStrips>(build, runner);
   add_kind<MultiresolutionStrips>(build, runner);
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <varifold/io/container.h>
 #include <varifold/mesh/topology.h>
+#include <varifold/models/common/uniform_model.h>
 #include <memory>
 
 namespace varifold::cli {
@@ -146,8 +147,7 @@ void report_model(const Model& model, Report& report) {
   report.count("levels", "levels", std::uint64_t{finest} + 1);
   report.length("base_error", "error of the base", model.error(0));
   report.length("full_error", "error of the full level", model.error(finest));
-  if constexpr (requires { model.error_is_measured(); })
-    report.set("error_is_measured", model.error_is_measured());
+  report.set("error_is_measured", error_is_measured(model));
   if constexpr (requires { model.moves_vertices(); })
     report.set("moves_vertices", model.moves_vertices());
   Box box;

@@ -15,10 +15,8 @@ struct StripifierOptions {
 };
 void add_stripifier_options(CLI::App& command, StripifierOptions& options);
 
+/// Strips of all triangles of the full level, by material ranges.
 [[nodiscard]] TriangleStrips make_strips(const DetailedMesh& detailed,
                                          const StripifierOptions& options);
-
-/// Indices a triangle, restarts between strips among them.
-[[nodiscard]] double indices_per_triangle(const TriangleStrips& strips, std::uint32_t triangles);
 
 }  // namespace varifold::cli

@@ -4,6 +4,7 @@
 
 #include <varifold/base/result.h>
 #include <varifold/io/container_table.h>
+#include <varifold/models/lodstrips/lod_strips.h>
 #include <varifold/models/mts/encoding.h>
 #include <varifold/models/mts/instance.h>
 #include <varifold/models/pm/encoding.h>
@@ -54,6 +55,19 @@ struct ModelKind<MultiresolutionStrips> {
   }
 };
 
+template <>
+struct ModelKind<LodStrips> {
+  using Instance = LodStripsInstance;
+  static constexpr const char* kName = "lodstrips";
+  static constexpr std::uint32_t kFourcc = fourcc("lods");
+  static constexpr std::uint32_t kChunk = fourcc("DATA");
+  static constexpr bool kDense = false;
+  static Result<LodStrips> decode(std::span<const std::byte> bytes) {
+    return decode_lod_strips(bytes);
+  }
+  static std::vector<std::byte> encode(const LodStrips& model) { return encode_lod_strips(model); }
+};
+
 template <class... Models>
 struct ModelList {
   using Any = std::variant<std::shared_ptr<const Models>...>;
@@ -63,7 +77,7 @@ struct ModelList {
     (visit.template operator()<Models>(), ...);
   }
 };
-using AllModels = ModelList<ProgressiveMesh, MultiresolutionStrips>;
+using AllModels = ModelList<ProgressiveMesh, LodStrips, MultiresolutionStrips>;
 
 /// One immutable model of any kind; std::visit with a generic lambda, whose parameter is a
 /// std::shared_ptr<const Model>. All kinds satisfy UniformModel, their instances UniformInstance.
