@@ -8,5 +8,6 @@ void register_progressive_mesh();
 void register_io();
 void register_measure();
 void register_strips();
+void register_lod_strips();
 
 }  // namespace varifold::bench

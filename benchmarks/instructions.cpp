@@ -1,5 +1,6 @@
 // A small fixed job for callgrind; see instructions.sh.
 #include <varifold/mesh/generators.h>
+#include <varifold/models/lodstrips/build.h>
 #include <varifold/models/pm/build.h>
 #include <varifold/models/pm/instance.h>
 #include <varifold/simplify/deviation.h>
@@ -22,6 +23,10 @@ int main() {
   const std::uint32_t finest = instance.model().finest_level();
   for (std::uint32_t i = 0; i <= 100; ++i) instance.go_to_level(finest / 100 * i);
   instance.go_to_level(0);
+  varifold::LodStripsInstance strips(
+      std::make_shared<const varifold::LodStrips>(varifold::build_lod_strips(result->detailed)));
+  for (std::uint32_t i = 0; i <= 100; ++i) strips.go_to_level(finest / 100 * i);
+  strips.go_to_level(0);
   std::printf("%u triangles at the base\n", instance.triangle_count());
   return 0;
 }

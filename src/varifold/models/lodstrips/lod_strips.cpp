@@ -4,7 +4,6 @@
 #include <varifold/models/common/level_table_bytes.h>
 #include <varifold/models/common/mesh_bytes.h>
 #include <varifold/models/common/uniform_model.h>
-#include <cassert>
 #include <string>
 #include <utility>
 
@@ -55,11 +54,6 @@ LodStrips::LodStrips(LevelTable levels, TriangleMesh attributes, Form form)
 std::size_t LodStrips::bytes() const {
   return attribute_bytes(attributes_) + levels_.bytes() +
          std::visit([](const auto& form) { return form.bytes(); }, form_);
-}
-
-LodStrips build_lod_strips(const DetailedMesh& detailed, const LodStripsOptions& /*options*/) {
-  assert(!detailed.sequence.moves_vertices());
-  return {LevelTable(detailed.sequence), detailed.mesh, build_block_form(detailed)};
 }
 
 std::vector<std::byte> encode_lod_strips(const LodStrips& model) {

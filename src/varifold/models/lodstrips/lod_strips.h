@@ -8,8 +8,8 @@
 #include <varifold/mesh/triangle_mesh.h>
 #include <varifold/models/common/level_table.h>
 #include <varifold/models/lodstrips/block_form.h>
-#include <varifold/simplify/collapse_sequence.h>
 #include <varifold/view/draw_list.h>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -24,6 +24,8 @@ enum class LodStripsForm : std::uint8_t {
   kBlocks,  ///< strips built from coarse to fine, in blocks: block_form.h
 };
 
+inline constexpr std::array<LodStripsForm, 1> kLodStripsForms = {LodStripsForm::kBlocks};
+
 /// "blocks", ...
 [[nodiscard]] std::string_view form_name(LodStripsForm form);
 
@@ -33,7 +35,7 @@ class LodStrips {
   using Form = std::variant<BlockForm>;
 
   LodStrips() = default;
-  /// The parts must be consistent, as from build_lod_strips() or decode_lod_strips(). Of
+  /// The parts must be consistent, as from build_lod_strips() (build.h) or decode_lod_strips(). Of
   /// `attributes`, indices and the triangles of ranges are not kept.
   LodStrips(LevelTable levels, TriangleMesh attributes, Form form);
 
@@ -78,14 +80,6 @@ class LodStrips {
   TriangleMesh attributes_;
   Form form_;
 };
-
-struct LodStripsOptions {
-  LodStripsForm form = LodStripsForm::kBlocks;
-};
-
-/// One replay of the sequence, which must not move vertices (Placement::kKept). O(n).
-[[nodiscard]] LodStrips build_lod_strips(const DetailedMesh& detailed,
-                                         const LodStripsOptions& options = {});
 
 /// All of the model as bytes; docs/formats/lodstrips.md. O(n).
 [[nodiscard]] std::vector<std::byte> encode_lod_strips(const LodStrips& model);
