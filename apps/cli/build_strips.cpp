@@ -1,7 +1,7 @@
 // varifold build strips|lodstrips|mts: a mesh becomes a model of triangle strips.
 #include <apps/cli/build_common.h>
 #include <apps/cli/stripifier.h>
-#include <varifold/models/lodstrips/lod_strips.h>
+#include <varifold/models/lodstrips/build.h>
 #include <varifold/models/mts/build.h>
 #include <memory>
 

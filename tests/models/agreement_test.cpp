@@ -4,7 +4,7 @@
 #include <tests/support/meshes.h>
 
 #include <varifold/io/any_model.h>
-#include <varifold/models/lodstrips/lod_strips.h>
+#include <varifold/models/lodstrips/build.h>
 #include <varifold/models/mts/build.h>
 #include <varifold/models/pm/build.h>
 #include <varifold/simplify/simplify.h>

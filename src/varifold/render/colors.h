@@ -41,8 +41,8 @@ namespace varifold {
   hash ^= hash >> 15u;
   hash *= 0x85ebca6bu;
   hash ^= hash >> 13u;
-  // Hues from orange (30 degrees) around to violet (310 degrees), as a part of the circle.
-  const float hue = (30.0f + 280.0f * static_cast<float>(hash & 0xffffu) / 65535.0f) / 360.0f;
+  // Hues from amber (45 degrees) round to magenta (300 degrees), as a part of the circle.
+  const float hue = (45.0f + 255.0f * static_cast<float>(hash & 0xffffu) / 65535.0f) / 360.0f;
   const float saturation = 0.45f + 0.35f * static_cast<float>(hash >> 16u & 0xffu) / 255.0f;
   const float value = 0.62f + 0.36f * static_cast<float>(hash >> 24u) / 255.0f;
   const auto channel = [&](float offset) {
