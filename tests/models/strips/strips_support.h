@@ -1,0 +1,55 @@
+// Strips frameworks of all test meshes, a small stripifier for them, and oracles that share no code
+// with the models.
+#pragma once
+
+#include <tests/support/meshes.h>
+
+#include <varifold/models/strips/build.h>
+#include <varifold/models/strips/instance.h>
+#include <varifold/simplify/collapse_sequence.h>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace varifold::test {
+
+/// Strips that go straight on as long as they can, within ranges and across equal vertices only. A
+/// part of them, by the seed, is joined by degenerate triangles, as generalised strips are.
+[[nodiscard]] TriangleStrips greedy_strips(const TriangleMesh& mesh, std::uint64_t seed = 1);
+
+struct NamedFramework {
+  std::string name;
+  DetailedMesh detailed;
+  std::shared_ptr<const StripFramework> model;
+};
+
+[[nodiscard]] NamedFramework make_framework(const NamedMesh& named);
+/// Every test mesh, made once; and those with at most so many levels.
+[[nodiscard]] const std::vector<NamedFramework>& all_frameworks();
+[[nodiscard]] std::vector<const NamedFramework*> small_frameworks(std::uint32_t levels);
+
+/// All levels of a small model, some 40 of a large one, the ends among them.
+[[nodiscard]] std::vector<std::uint32_t> spread_levels(std::uint32_t finest);
+
+/// Corners and material, turned so that the least corner comes first.
+using Triangle = std::array<std::uint32_t, 4>;
+[[nodiscard]] Triangle turned(std::uint32_t a, std::uint32_t b, std::uint32_t c,
+                              std::uint32_t material);
+/// Sorted; without those that have two equal corners.
+[[nodiscard]] std::vector<Triangle> triangle_set(const TriangleMesh& mesh);
+/// Of what a draw list draws: by its ranges, restarts and all.
+[[nodiscard]] std::vector<Triangle> triangle_set(const DrawList& list);
+/// The mesh where the given steps are split: every corner its first ancestor that is there.
+[[nodiscard]] TriangleMesh mesh_of_front(const DetailedMesh& detailed,
+                                         const std::vector<bool>& split);
+[[nodiscard]] std::vector<bool> splits_of(const StripFrameworkInstance& instance);
+
+/// The dependencies of every step, read from the model's packed form.
+[[nodiscard]] std::vector<std::vector<std::uint32_t>> dependencies_of(const StripFramework& model);
+
+/// Empty where both have the same state and the same buffers, byte for byte.
+[[nodiscard]] std::string difference(StripFrameworkInstance& a, StripFrameworkInstance& b);
+
+}  // namespace varifold::test
