@@ -4,12 +4,6 @@
 
 namespace varifold {
 
-namespace {
-
-constexpr std::uint32_t kMost = 0x7fffffff;  // vertices and triangles
-
-}  // namespace
-
 void LevelTableCoder::append(const LevelTable& table, std::vector<std::byte>& bytes) {
   append_little(bytes, table.finest_level());
   append_little(bytes, table.base_.vertices);
@@ -30,7 +24,7 @@ void LevelTableCoder::append(const LevelTable& table, std::vector<std::byte>& by
   append_array(bytes, table.targets().subspan(table.base_.vertices));
 }
 
-Result<LevelTable> LevelTableCoder::take(SectionReader& section) {
+Result<LevelTable> LevelTableCoder::take(SectionReader& section, std::uint32_t most_vertices) {
   LevelTable table;
   const auto levels = section.take<std::uint32_t>();
   table.base_.vertices = section.take<std::uint32_t>();
@@ -43,6 +37,7 @@ Result<LevelTable> LevelTableCoder::take(SectionReader& section) {
   if (!section.good()) return section.fault("the level table ends too early");
 
   std::uint64_t vertices = table.base_.vertices, triangles = table.base_.triangles;
+  if (vertices > most_vertices) return section.fault("there are more vertices than the mesh has");
   std::uint32_t used = 0;
   for (const std::uint8_t code : codes) {
     LevelTable::Step step{code & 15u, static_cast<std::uint32_t>(code >> 4u)};
@@ -55,7 +50,8 @@ Result<LevelTable> LevelTableCoder::take(SectionReader& section) {
     if (step.vertices == 0) return section.fault("a step without a vertex");
     vertices += step.vertices;
     triangles += step.triangles;
-    if (vertices > kMost || triangles > kMost) return section.fault("the steps add up to too much");
+    if (vertices > most_vertices || triangles > kMost)
+      return section.fault("the steps add up to too much");
     table.push_step(step);
   }
   if (used != exceptions) return section.fault("there are more exceptions than steps need");

@@ -5,7 +5,7 @@
 #include <varifold/models/common/level_table_bytes.h>
 #include <varifold/models/common/mesh_bytes.h>
 #include <varifold/models/common/section_reader.h>
-#include <array>
+#include <varifold/models/strips/strip_levels.h>
 #include <cmath>
 #include <string_view>
 #include <utility>
@@ -65,46 +65,22 @@ Result<TriangleStrips> take_strips(SectionReader& section, const StripFrameworkD
   return strips;
 }
 
-// The level up to which a triangle of the strips is none: the step that makes two of its corners
-// one. `step_of` has the level of vertices of the base as 0.
-std::uint32_t level_of(std::array<std::uint32_t, 3> corners, const LevelTable& levels,
-                       const std::vector<std::uint32_t>& level_of_vertex) {
-  for (;;) {
-    std::uint32_t* newest = &corners[0];
-    for (std::uint32_t& corner : corners)
-      if (corner > *newest) newest = &corner;
-    const std::uint32_t level = level_of_vertex[*newest];
-    if (level == 0) return 0;
-    // All wedges of the step go at once.
-    for (std::uint32_t& corner : corners)
-      if (level_of_vertex[corner] == level) corner = levels.target(corner);
-    if (is_degenerate(corners)) return level;
-  }
-}
-
 // Every level must have as many triangles as the level table says, every range as many as it says.
 bool triangles_match(const StripFrameworkData& data, const TriangleStrips& strips) {
   const LevelTable& levels = data.levels;
-  std::vector<std::uint32_t> level_of_vertex;
-  level_of_vertex.assign(levels.vertex_count(0), 0);
-  for (std::uint32_t k = 0; k < levels.finest_level(); ++k)
-    level_of_vertex.insert(level_of_vertex.end(), levels.step(k).vertices, k + 1);
-  std::vector<std::uint32_t> added(std::size_t{levels.finest_level()} + 1, 0);
-  std::vector<std::uint32_t> of_range(data.mesh.ranges.size(), 0);
-  for (std::uint32_t s = 0; s < strips.count(); ++s) {
-    const auto strip = strips.strip(s);
-    for (std::size_t i = 0; i + 2 < strip.size(); ++i) {
-      const std::array<std::uint32_t, 3> corners = strip_triangle(strip, i);
-      if (is_degenerate(corners)) continue;
-      ++added[level_of(corners, levels, level_of_vertex)];
-      if (!of_range.empty()) ++of_range[strips.range[s]];
-    }
-  }
+  const std::vector<std::uint32_t> added = triangles_added(levels, strips);
+  if (added[0] != levels.triangle_count(0)) return false;
   for (std::uint32_t k = 0; k < levels.finest_level(); ++k)
     if (added[k + 1] != levels.step(k).triangles) return false;
+  std::vector<std::uint32_t> of_range(data.mesh.ranges.size(), 0);
+  for (std::uint32_t s = 0; s < strips.count() && !of_range.empty(); ++s) {
+    const auto strip = strips.strip(s);
+    for (std::size_t i = 0; i + 2 < strip.size(); ++i)
+      if (!is_degenerate(strip_triangle(strip, i))) ++of_range[strips.range[s]];
+  }
   for (std::size_t r = 0; r < of_range.size(); ++r)
     if (of_range[r] != data.mesh.ranges[r].triangle_count) return false;
-  return added[0] == levels.triangle_count(0);
+  return true;
 }
 
 Result<void> take_dependencies(SectionReader& section, StripFrameworkData& data) {
@@ -194,7 +170,7 @@ Result<StripFramework> decode_strip_framework(std::span<const std::byte> bytes) 
   StripFrameworkData data;
   if (auto taken = take_mesh(section, data); !taken)
     return tl::unexpected<Error>(std::move(taken.error()));
-  auto levels = LevelTableCoder::take(section);
+  auto levels = LevelTableCoder::take(section, data.mesh.vertex_count());
   if (!levels) return tl::unexpected<Error>(std::move(levels.error()));
   data.levels = std::move(*levels);
   if (data.levels.targets().size() != data.mesh.vertex_count())

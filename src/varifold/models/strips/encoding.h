@@ -14,8 +14,7 @@ namespace varifold {
 
 /// Errors: kInvalidInput with the offset of the fault. Accepts any bytes: no more is allocated than
 /// they justify, and a model that is returned has all indices in range, dependencies on finer steps
-/// only, and at every level as many triangles as it says. O(bytes) and, for the last, O(slots *
-/// depth of the tree of targets).
+/// only, and at every level as many triangles as it says. O(bytes log bytes).
 [[nodiscard]] Result<StripFramework> decode_strip_framework(std::span<const std::byte> bytes);
 
 }  // namespace varifold
