@@ -72,8 +72,9 @@ struct LightCriterion {
   if (diffuse.high <= 0 || light.specular <= 0) return change;
   const Vec3 half = normalize_or_zero(normalize_or_zero(eye - region.ball.center) + light.to_light);
   const CosineRange gloss = cosine_range(region.cone, half);
-  return change + light.specular * (std::pow(lit(gloss.high), light.shininess) -
-                                    std::pow(lit(gloss.low), light.shininess));
+  // Where no light falls there is no highlight either.
+  const float dullest = diffuse.low <= 0 ? 0 : std::pow(lit(gloss.low), light.shininess);
+  return change + light.specular * (std::pow(lit(gloss.high), light.shininess) - dullest);
 }
 
 /// What a camera asks for: errors in pixels, more or less of them by where the region lies and how

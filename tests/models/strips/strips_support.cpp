@@ -11,80 +11,31 @@ namespace varifold::test {
 
 namespace {
 
-class GreedyStrips {
- public:
-  GreedyStrips(const TriangleMesh& mesh, std::uint64_t seed) : mesh_(mesh), random_(seed) {
-    used_.assign(mesh.triangle_count(), false);
-    range_of_.assign(mesh.triangle_count(), 0);
-    for (std::uint32_t r = 0; r < mesh.ranges.size(); ++r)
-      std::fill_n(range_of_.begin() + mesh.ranges[r].first_triangle, mesh.ranges[r].triangle_count,
-                  r);
-    for (std::uint32_t slot = 0; slot < mesh.indices.size(); ++slot)
-      slots_.emplace(std::pair{corner(slot), corner(next(slot))}, slot);
-    for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t)
-      if (!used_[t]) strip_from(t);
-    end_strip();
-  }
-  TriangleStrips take() { return std::move(strips_); }
-
- private:
-  static std::uint32_t next(std::uint32_t slot) { return slot % 3 == 2 ? slot - 2 : slot + 1; }
-  std::uint32_t corner(std::uint32_t slot) const { return mesh_.indices[slot]; }
-
-  void strip_from(std::uint32_t t) {
-    std::vector<std::uint32_t>& indices = strips_.indices;
-    const bool same_range = indices.size() > strips_.first.back() && range_ == range_of_[t];
-    if (same_range && random_.below(2) == 0) {
-      // Two indices repeated, or three, so that the new triangle stands at an even place.
-      const std::uint32_t last = indices.back(), count = here();
-      indices.push_back(last);
-      if (count % 2 == 1) indices.push_back(last);
-      indices.push_back(corner(3 * t));
-    } else {
-      end_strip();
-    }
-    range_ = range_of_[t];
-    used_[t] = true;
-    for (std::uint32_t c = 0; c < 3; ++c) indices.push_back(corner(3 * t + c));
-    while (go_on()) continue;
-  }
-  std::uint32_t here() const {
-    return static_cast<std::uint32_t>(strips_.indices.size()) - strips_.first.back();
-  }
-  bool go_on() {
-    const std::uint32_t a = strips_.indices[strips_.indices.size() - 2], b = strips_.indices.back();
-    const bool odd = here() % 2 == 1;  // of the triangle that comes next
-    const auto found = slots_.equal_range(odd ? std::pair{b, a} : std::pair{a, b});
-    for (auto i = found.first; i != found.second; ++i) {
-      const std::uint32_t t = i->second / 3;
-      if (used_[t] || range_of_[t] != range_) continue;
-      used_[t] = true;
-      strips_.indices.push_back(corner(next(next(i->second))));
-      return true;
-    }
-    return false;
-  }
-  void end_strip() {
-    if (here() > 0) strips_.end_strip(range_);
-  }
-
-  const TriangleMesh& mesh_;
-  Random random_;
-  std::vector<bool> used_;
-  std::vector<std::uint32_t> range_of_;
-  std::multimap<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> slots_;
-  TriangleStrips strips_;
-  std::uint32_t range_ = 0;
-};
-
 bool same(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end());
 }
 
 }  // namespace
 
-TriangleStrips greedy_strips(const TriangleMesh& mesh, std::uint64_t seed) {
-  return GreedyStrips(mesh, seed).take();
+// Short seams everywhere, with ends inside the surface: wedges that must choose where to go.
+NamedMesh torn_sphere(std::uint64_t seed) {
+  Random random(seed);
+  const TriangleMesh whole = icosphere(500);
+  TriangleMesh mesh;
+  mesh.positions = whole.positions;
+  for (const Vec3& p : whole.positions) mesh.texcoords.push_back({p.x, p.y});
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> wedges;
+  for (const std::uint32_t v : whole.indices) {
+    const std::uint32_t sheet = random.below(100) < 6 ? 1 + random.below(2) : 0;
+    const auto [found, is_new] = wedges.try_emplace({v, sheet}, v);
+    if (is_new && sheet > 0) {
+      found->second = mesh.vertex_count();
+      mesh.positions.push_back(whole.positions[v]);
+      mesh.texcoords.push_back({whole.positions[v].x + 3.0f * static_cast<float>(sheet), 0});
+    }
+    mesh.indices.push_back(found->second);
+  }
+  return {"torn_sphere_" + std::to_string(seed), mesh};
 }
 
 NamedFramework make_framework(const NamedMesh& named) {
@@ -94,7 +45,7 @@ NamedFramework make_framework(const NamedMesh& named) {
   result.name = named.name;
   result.detailed = std::move(simplify(named.mesh, options)->detailed);
   result.model = std::make_shared<StripFramework>(
-      build_strip_framework(result.detailed, greedy_strips(result.detailed.mesh)));
+      build_strip_framework(result.detailed, some_strips(result.detailed.mesh)));
   return result;
 }
 
@@ -102,6 +53,7 @@ const std::vector<NamedFramework>& all_frameworks() {
   static const std::vector<NamedFramework> models = [] {
     std::vector<NamedFramework> made;
     for (const NamedMesh& named : all_groups()) made.push_back(make_framework(named));
+    for (const std::uint64_t seed : {1u, 2u, 3u}) made.push_back(make_framework(torn_sphere(seed)));
     return made;
   }();
   return models;
@@ -177,7 +129,8 @@ TriangleMesh mesh_of_front(const DetailedMesh& detailed, const std::vector<bool>
   std::vector<std::uint32_t> indices, kept;
   for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
     const std::uint32_t* c = &mesh.indices[3 * std::size_t{t}];
-    if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) continue;
+    const Vec3 p = mesh.positions[c[0]], q = mesh.positions[c[1]], r = mesh.positions[c[2]];
+    if (p == q || q == r || r == p) continue;
     indices.insert(indices.end(), c, c + 3);
     kept.push_back(materials[t]);
   }

@@ -1,7 +1,7 @@
-// Strips frameworks of all test meshes, a small stripifier for them, and oracles that share no code
-// with the models.
+// Strips frameworks of all test meshes, and oracles that share no code with them.
 #pragma once
 
+#include <tests/support/greedy_strips.h>
 #include <tests/support/meshes.h>
 
 #include <varifold/models/strips/build.h>
@@ -15,9 +15,10 @@
 
 namespace varifold::test {
 
-/// Strips that go straight on as long as they can, within ranges and across equal vertices only. A
-/// part of them, by the seed, is joined by degenerate triangles, as generalised strips are.
-[[nodiscard]] TriangleStrips greedy_strips(const TriangleMesh& mesh, std::uint64_t seed = 1);
+/// The strips that all models here are built from.
+[[nodiscard]] inline TriangleStrips some_strips(const TriangleMesh& mesh) {
+  return greedy_strips(mesh, Joins::kSome);
+}
 
 struct NamedFramework {
   std::string name;
@@ -25,8 +26,10 @@ struct NamedFramework {
   std::shared_ptr<const StripFramework> model;
 };
 
+/// A sphere with seams that end inside the surface.
+[[nodiscard]] NamedMesh torn_sphere(std::uint64_t seed);
 [[nodiscard]] NamedFramework make_framework(const NamedMesh& named);
-/// Every test mesh, made once; and those with at most so many levels.
+/// Every test mesh and three torn spheres, made once; and those with at most so many levels.
 [[nodiscard]] const std::vector<NamedFramework>& all_frameworks();
 [[nodiscard]] std::vector<const NamedFramework*> small_frameworks(std::uint32_t levels);
 

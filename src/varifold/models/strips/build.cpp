@@ -2,6 +2,7 @@
 
 #include <varifold/models/strips/build_graph.h>
 #include <varifold/models/strips/build_regions.h>
+#include <varifold/models/strips/strip_levels.h>
 #include <algorithm>
 #include <cassert>
 #include <numeric>
@@ -40,7 +41,9 @@ StripFramework build_strip_framework(const DetailedMesh& detailed,
   measure_regions(detailed, graph, data);
   data.mesh = detailed.mesh;
   data.mesh.indices = {};
-  return {std::move(data), sorted_by_range(full_strips)};
+  TriangleStrips strips = sorted_by_range(full_strips);
+  data.slivers = strip_levels(data.mesh, data.levels, strips).slivers;
+  return {std::move(data), std::move(strips)};
 }
 
 }  // namespace varifold

@@ -6,7 +6,7 @@
 //   indices, so that neither uploads nor calls grow with the number of strips.
 #pragma once
 
-#include <varifold/mesh/triangle_mesh.h>
+#include <varifold/models/strips/strip_framework.h>
 #include <varifold/view/draw_list.h>
 #include <cstddef>
 #include <cstdint>
@@ -20,10 +20,8 @@ namespace varifold {
 class DrawPages {
  public:
   DrawPages() = default;
-  /// `first_slots`, `strip_ranges`: as in StripFramework, and must outlive this. Everything counts
-  /// as touched. O(strips).
-  DrawPages(std::span<const std::uint32_t> first_slots, std::span<const std::uint32_t> strip_ranges,
-            const TriangleMesh& mesh);
+  /// `model` must outlive this. Everything counts as touched. O(model).
+  explicit DrawPages(const StripFramework& model);
 
   /// Notes that the index at a slot may have changed.
   void touch(std::uint32_t slot) { touched_[slot >> kBlockBits] = 1; }
@@ -45,17 +43,20 @@ class DrawPages {
   struct Page {
     std::uint32_t first_strip, strip_count;
     std::uint32_t first_index;  // in indices_
-    std::uint32_t used;
+    std::uint32_t room, used;
     std::uint32_t material;
   };
   [[nodiscard]] bool is_touched(std::uint32_t first_slot, std::uint32_t end_slot) const;
   void rebuild(Page& page, std::span<const std::uint32_t> slots);
+  std::uint32_t filter(std::uint32_t strip, std::span<const std::uint32_t> slots,
+                       std::uint32_t* to);
 
-  std::span<const std::uint32_t> first_slots_;
+  const StripFramework* model_ = nullptr;
   std::vector<Page> pages_;
   std::vector<std::uint32_t> lengths_;  // per strip, as drawn
   std::vector<std::uint32_t> indices_;
   std::vector<std::uint32_t> before_;  // a page as it was
+  std::vector<std::uint32_t> piece_;   // that begins at an odd place
   std::vector<std::uint8_t> touched_;
   std::vector<DrawRange> ranges_;
   std::vector<ElementRange> changed_;

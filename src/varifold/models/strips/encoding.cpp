@@ -66,9 +66,9 @@ Result<TriangleStrips> take_strips(SectionReader& section, const StripFrameworkD
 }
 
 // Every level must have as many triangles as the level table says, every range as many as it says.
-bool triangles_match(const StripFrameworkData& data, const TriangleStrips& strips) {
+bool triangles_match(const StripFrameworkData& data, const TriangleStrips& strips,
+                     const std::vector<std::uint32_t>& added) {
   const LevelTable& levels = data.levels;
-  const std::vector<std::uint32_t> added = triangles_added(levels, strips);
   if (added[0] != levels.triangle_count(0)) return false;
   for (std::uint32_t k = 0; k < levels.finest_level(); ++k)
     if (added[k + 1] != levels.step(k).triangles) return false;
@@ -179,12 +179,16 @@ Result<StripFramework> decode_strip_framework(std::span<const std::byte> bytes) 
     return tl::unexpected<Error>(std::move(taken.error()));
   auto strips = take_strips(section, data);
   if (!strips) return tl::unexpected<Error>(std::move(strips.error()));
-  if (!triangles_match(data, *strips))
+  StripLevels found = strip_levels(data.mesh, data.levels, *strips);
+  if (!found.places_stay_whole)
+    return section.fault("vertices at one place do not go to one place");
+  if (!triangles_match(data, *strips, found.added))
     return section.fault("the strips do not have the triangles of the levels");
   if (auto taken = take_dependencies(section, data); !taken)
     return tl::unexpected<Error>(std::move(taken.error()));
   if (auto taken = take_regions(section, data); !taken)
     return tl::unexpected<Error>(std::move(taken.error()));
+  data.slivers = std::move(found.slivers);
   if (!section.at_end()) return section.fault("there are bytes behind the end");
   return StripFramework(std::move(data), std::move(*strips));
 }

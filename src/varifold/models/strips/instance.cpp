@@ -1,6 +1,7 @@
 #include <varifold/models/strips/instance.h>
 
 #include <varifold/models/common/extract_level.h>
+#include <varifold/models/strips/strip_pieces.h>
 #include <algorithm>
 #include <cassert>
 #include <utility>
@@ -12,7 +13,7 @@ StripFrameworkInstance::StripFrameworkInstance(std::shared_ptr<const StripFramew
       slots_(model_->slot_count()),
       split_(model_->finest_level(), 0),
       urgencies_(*model_),
-      pages_(model_->first_slots(), model_->strip_ranges(), model_->attributes()) {
+      pages_(*model_) {
   vertex_count_ = model_->vertex_count(0);
   triangle_count_ = model_->triangle_count(0);
   all_vertices_ = {0, model_->attributes().vertex_count()};
@@ -126,17 +127,29 @@ std::size_t StripFrameworkInstance::bytes() const {
 TriangleMesh StripFrameworkInstance::extract() const {
   const TriangleMesh& mesh = model_->attributes();
   std::vector<DrawRange> ranges;
+  std::vector<std::uint32_t> indices;
   ranges.reserve(model_->strip_count());
+  indices.reserve(slots_.size());
   const auto first = model_->first_slots();
-  for (std::uint32_t s = 0; s < model_->strip_count(); ++s)
-    ranges.push_back({first[s], first[s + 1] - first[s], Primitive::kStrips,
-                      mesh.ranges.empty() ? 0 : mesh.ranges[model_->strip_ranges()[s]].material});
+  for (std::uint32_t s = 0; s < model_->strip_count(); ++s) {
+    const std::uint32_t material =
+        mesh.ranges.empty() ? 0 : mesh.ranges[model_->strip_ranges()[s]].material;
+    for_each_piece(slots_, first[s], first[s + 1], model_->slivers_of(s), mesh.positions,
+                   [&](const StripPiece& piece) {
+                     const auto begin = static_cast<std::uint32_t>(indices.size());
+                     if (piece.is_odd) indices.push_back(slots_[piece.begin]);
+                     indices.insert(indices.end(), slots_.begin() + piece.begin,
+                                    slots_.begin() + piece.end);
+                     const auto count = static_cast<std::uint32_t>(indices.size()) - begin;
+                     ranges.push_back({begin, count, Primitive::kStrips, material});
+                   });
+  }
   DrawList list;
   list.positions = mesh.positions;
   list.normals = mesh.normals;
   list.texcoords = mesh.texcoords;
   list.colors = mesh.colors;
-  list.indices = slots_;
+  list.indices = indices;
   list.ranges = ranges;
   if (level_ != kNone) return extract_level(mesh, vertex_count_, list);
   return without_unused_vertices(extract_level(mesh, mesh.vertex_count(), list));

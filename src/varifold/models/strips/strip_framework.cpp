@@ -3,6 +3,7 @@
 #include <varifold/models/common/error_code.h>
 #include <varifold/models/common/extract_level.h>
 #include <varifold/view/cone_code.h>
+#include <algorithm>
 #include <utility>
 
 namespace varifold {
@@ -19,6 +20,13 @@ StripFramework::StripFramework(StripFrameworkData data, TriangleStrips strips)
   for (std::size_t v = 0; v < own.size(); ++v) cursor[v] = records_[v].begin;
   for (std::uint32_t slot = 0; slot < strips.indices.size(); ++slot)
     slots_[cursor[strips.indices[slot]]++] = slot;
+}
+
+std::span<const std::uint32_t> StripFramework::slivers_of(std::uint32_t strip) const {
+  const auto begin =
+      std::lower_bound(data_.slivers.begin(), data_.slivers.end(), first_slot_[strip]);
+  const auto end = std::lower_bound(begin, data_.slivers.end(), first_slot_[strip + 1]);
+  return {begin, end};
 }
 
 TriangleStrips StripFramework::full_strips() const {
@@ -53,7 +61,8 @@ RegionBounds StripFramework::region(std::uint32_t step, std::uint32_t vertex) co
 
 std::size_t StripFramework::bytes() const {
   const std::size_t words = data_.dependencies.size() + data_.radius.size() + data_.cone.size() +
-                            first_slot_.size() + strip_range_.size() + slots_.size();
+                            data_.slivers.size() + first_slot_.size() + strip_range_.size() +
+                            slots_.size();
   return attribute_bytes(data_.mesh) + data_.levels.bytes() + words * sizeof(std::uint32_t) +
          data_.error_codes.size() * sizeof(std::uint16_t) + records_.size() * sizeof(NestedRange);
 }

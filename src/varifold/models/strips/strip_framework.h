@@ -31,6 +31,7 @@ struct StripFrameworkData {
   std::vector<float> radius;
   std::vector<std::uint32_t> cone;         ///< cone_code.h
   std::vector<std::uint16_t> error_codes;  ///< error_code.h
+  std::vector<std::uint32_t> slivers;      ///< strip_levels.h
 
   static constexpr std::uint32_t kLastDependency = 0x80000000u;
 };
@@ -80,6 +81,8 @@ class StripFramework {
   /// Per strip its first slot, and the end of the last one; and its range of `mesh.ranges`.
   [[nodiscard]] std::span<const std::uint32_t> first_slots() const { return first_slot_; }
   [[nodiscard]] std::span<const std::uint32_t> strip_ranges() const { return strip_range_; }
+  /// Those of `data().slivers` that are in a strip. O(log slivers).
+  [[nodiscard]] std::span<const std::uint32_t> slivers_of(std::uint32_t strip) const;
   /// The strips at full detail. O(slots).
   [[nodiscard]] TriangleStrips full_strips() const;
 
