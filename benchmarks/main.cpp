@@ -7,6 +7,7 @@ int main(int argc, char** argv) {
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   varifold::bench::register_simplify();
   varifold::bench::register_progressive_mesh();
+  varifold::bench::register_strip_framework();
   varifold::bench::register_io();
   varifold::bench::register_measure();
   benchmark::RunSpecifiedBenchmarks();

@@ -23,13 +23,13 @@ struct RegionBounds {
   float error = 0;  ///< how far the surface may be off while it is coarse, model units
 };
 
-/// Whether a region reaches into a ball, or to the side of a plane that its normal points to.
-/// An empty ball is reached by nothing.
-[[nodiscard]] inline bool touches(const Sphere& place, const RegionBounds& region) {
-  return !place.empty() && distance_to(place, region.ball.center) <= region.ball.radius;
+/// Whether a ball reaches into another one, or to the side of a plane that its normal points to.
+/// An empty place is reached by nothing.
+[[nodiscard]] inline bool touches(const Sphere& place, const Sphere& ball) {
+  return !place.empty() && distance_to(place, ball.center) <= ball.radius;
 }
-[[nodiscard]] inline bool touches(const Plane& side, const RegionBounds& region) {
-  return side.signed_distance(region.ball.center) >= -region.ball.radius;
+[[nodiscard]] inline bool touches(const Plane& side, const Sphere& ball) {
+  return side.signed_distance(ball.center) >= -ball.radius;
 }
 
 /// The region may be a part of the outline seen from `eye`: some of it may face the eye, and some
@@ -91,6 +91,11 @@ struct ViewCriterion {
   float silhouette_weight = 1;  ///< neither wholly turned away nor wholly turned to the eye
   std::optional<LightCriterion> light;
 
+  /// What urgency() is at most, whatever the normals and the light; cheap.
+  [[nodiscard]] float bound(const Sphere& ball, float error) const {
+    return scale.pixels_of(error, ball) * std::max(1.0f, outside_weight) *
+           std::max({1.0f, back_weight, silhouette_weight});
+  }
   /// Pixels; O(1).
   [[nodiscard]] float urgency(const RegionBounds& region) const {
     float pixels = scale.pixels_of(region.error, region.ball);
@@ -109,7 +114,8 @@ struct ViewCriterion {
 };
 
 /// All that asks for detail at a time. Without any part nothing does.
-struct RefineCriteria {
+class RefineCriteria {
+ public:
   std::optional<ViewCriterion> view;
   std::optional<Sphere> sphere;  ///< full detail in this ball
   std::optional<Plane> plane;    ///< full detail on the side that the normal points to
@@ -120,12 +126,20 @@ struct RefineCriteria {
 
   /// A region is to be refined where this is above the tolerance in pixels. O(1), pure.
   [[nodiscard]] float urgency(const RegionBounds& region) const {
-    const float asked = view ? std::min(view->urgency(region), kFullDetail) : 0.0f;
-    if ((sphere && touches(*sphere, region)) || (plane && touches(*plane, region))) {
+    if (is_placed_on(region.ball)) {
       const float size = region.error + region.ball.radius;
       return kFullDetail * (1.5f + (size > 0 ? region.error / size : 0.0f));
     }
-    return asked;
+    return view ? std::min(view->urgency(region), kFullDetail) : 0.0f;
+  }
+  /// Whether urgency() may be above `tolerance`, whatever the normals; cheap.
+  [[nodiscard]] bool may_exceed(float tolerance, const Sphere& ball, float error) const {
+    return (view && view->bound(ball, error) > tolerance) || is_placed_on(ball);
+  }
+
+ private:
+  [[nodiscard]] bool is_placed_on(const Sphere& ball) const {
+    return (sphere && touches(*sphere, ball)) || (plane && touches(*plane, ball));
   }
 };
 

@@ -37,7 +37,9 @@ TEST(StripFilter, PairsGo) {
   EXPECT_EQ(filtered({1, 2, 3, 3, 4, 3, 3, 5, 6}), (Strip{1, 2, 3, 3, 3, 5, 6}));
   EXPECT_EQ(filtered({1, 2, 3, 4, 4, 4}), (Strip{1, 2, 3, 4}));
   EXPECT_EQ(filtered({1, 1, 1, 2, 3, 4}), (Strip{1, 2, 3, 4}) /* two from the beginning */);
-  EXPECT_EQ(filtered({1, 1, 2, 3, 4}), (Strip{1, 1, 2, 3, 4}));
+  EXPECT_EQ(filtered({1, 1, 2, 3, 4, 5}), (Strip{1, 1, 2, 3, 4, 5}));
+  EXPECT_EQ(filtered({1, 1, 2, 3, 4}), (Strip{1, 3, 2, 4}));
+  EXPECT_EQ(filtered({1, 1, 2, 3}), (Strip{2, 1, 3}));
   EXPECT_EQ(filtered({1, 2, 1, 2, 1, 1, 2}), Strip{});
   EXPECT_EQ(filtered({1, 2}), Strip{});
   EXPECT_EQ(filtered({}), Strip{});

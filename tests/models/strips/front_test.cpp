@@ -261,6 +261,35 @@ TEST(StripsFront, MeetsBudgets) {
   }
 }
 
+// The criteria are asked in a short cut; the front is that of asking them in full.
+TEST(StripsFront, CriteriaAreAskedInFull) {
+  Random random(9);
+  for (const NamedFramework& named : all_frameworks()) {
+    StripFrameworkInstance instance(named.model), plain(named.model);
+    for (int i = 0; i < 10; ++i) {
+      Camera camera;
+      camera.eye = {4 * static_cast<float>(random.uniform()) - 2,
+                    4 * static_cast<float>(random.uniform()) - 2, 3};
+      RefineCriteria criteria;
+      criteria.view.emplace(camera);
+      criteria.view->silhouette_weight = static_cast<float>(4 * random.uniform());
+      if (i % 2 == 0) criteria.view->outside_weight = 2;
+      if (i % 3 == 0) criteria.sphere = Sphere{{1, 0, 0}, 0.2f};
+      const AdaptOptions options{static_cast<float>(20 * random.uniform()),
+                                 i % 4 == 0 ? 50 + random.below(500) : kNone};
+      const FrontStatistics a = instance.adapt(criteria, options);
+      const FrontStatistics b = plain.adapt_by(
+          [&](std::uint32_t k) {
+            return criteria.urgency(named.model->region(k, named.detailed.sequence.vertices[k]));
+          },
+          options);
+      EXPECT_EQ(difference(instance, plain), "") << named.name;
+      EXPECT_EQ(a.tolerance, b.tolerance);
+      EXPECT_EQ(a.forced_splits, b.forced_splits);
+    }
+  }
+}
+
 double distance_to_triangle(DVec3 p, DVec3 a, DVec3 b, DVec3 c) {
   const auto to_segment = [&](DVec3 u, DVec3 v) {
     const double length = glm::dot(v - u, v - u);

@@ -26,7 +26,7 @@ struct NamedFramework {
   std::shared_ptr<const StripFramework> model;
 };
 
-/// A sphere with seams that end inside the surface.
+/// A sphere with short creases of its normals all over, which end inside the surface.
 [[nodiscard]] NamedMesh torn_sphere(std::uint64_t seed);
 [[nodiscard]] NamedFramework make_framework(const NamedMesh& named);
 /// Every test mesh and three torn spheres, made once; and those with at most so many levels.

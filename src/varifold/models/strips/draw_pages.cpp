@@ -35,9 +35,10 @@ DrawPages::DrawPages(const StripFramework& model) : model_(&model) {
 
 bool DrawPages::is_touched(std::uint32_t first_slot, std::uint32_t end_slot) const {
   if (first_slot == end_slot) return false;
-  const auto first = touched_.begin() + (first_slot >> kBlockBits);
-  const auto last = touched_.begin() + ((end_slot - 1) >> kBlockBits);
-  return std::find(first, last + 1, std::uint8_t{1}) != last + 1;
+  const std::uint32_t last = (end_slot - 1) >> kBlockBits;
+  for (std::uint32_t block = first_slot >> kBlockBits; block <= last; ++block)
+    if (touched_[block] != 0) return true;
+  return false;
 }
 
 void DrawPages::refresh(std::span<const std::uint32_t> slots) {

@@ -71,8 +71,13 @@ void StripFrameworkInstance::go_to_level(std::uint32_t level) {
 
 FrontStatistics StripFrameworkInstance::adapt(const RefineCriteria& criteria,
                                               const AdaptOptions& options) {
+  // What does not exceed the tolerance is never split for its own sake, so how urgent it is does
+  // not matter.
+  const float least = options.tolerance;
   urgencies_.ask(*model_, [&](std::uint32_t step, std::uint32_t vertex) {
-    return criteria.urgency(model_->region(step, vertex));
+    return criteria.may_exceed(least, model_->ball(step, vertex), model_->step_error(step))
+               ? criteria.urgency(model_->region(step, vertex))
+               : 0.0f;
   });
   return settle(options);
 }

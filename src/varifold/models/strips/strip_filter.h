@@ -13,7 +13,8 @@ namespace varifold {
 
 /// Writes the strip to `out`, which has room for all of it and does not overlap it, and returns how
 /// many indices are left; 0 where all triangles are degenerate. abab becomes ab, aaaa aa, aabaa
-/// aaa, wherever they stand; degenerate triangles at the end go, and at the beginning in pairs.
+/// aaa, wherever they stand; degenerate triangles at the end go, and at the beginning in pairs, or
+/// one where only one or two triangles follow.
 /// O(indices).
 inline std::uint32_t filter_strip(std::span<const std::uint32_t> strip, std::uint32_t* out) {
   const auto degenerate = [&](std::uint32_t i) {
@@ -39,6 +40,18 @@ inline std::uint32_t filter_strip(std::span<const std::uint32_t> strip, std::uin
     }
   }
   while (n >= 3 && degenerate(n - 3)) --n;
+  // One or two triangles behind a degenerate one that turns them: turned by their corners instead.
+  if (n == 4 && degenerate(0)) {
+    out[0] = out[2];
+    out[2] = out[3];
+    return 3;
+  }
+  if (n == 5 && degenerate(0) && !degenerate(1)) {
+    out[0] = out[1];
+    out[1] = out[3];
+    out[3] = out[4];
+    return 4;
+  }
   return n >= 3 ? n : 0;
 }
 

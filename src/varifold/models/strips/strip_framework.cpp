@@ -1,8 +1,6 @@
 #include <varifold/models/strips/strip_framework.h>
 
-#include <varifold/models/common/error_code.h>
 #include <varifold/models/common/extract_level.h>
-#include <varifold/view/cone_code.h>
 #include <algorithm>
 #include <utility>
 
@@ -51,12 +49,6 @@ std::uint64_t StripFramework::record_count() const {
   for (std::size_t v = 0; v < records_.size(); ++v)
     if (data_.levels.target(static_cast<std::uint32_t>(v)) != kNone) count += records_[v].count;
   return count;
-}
-
-RegionBounds StripFramework::region(std::uint32_t step, std::uint32_t vertex) const {
-  return {{data_.mesh.positions[vertex], data_.radius[step]},
-          unpack_cone(data_.cone[step]),
-          error_of_code(data_.error_codes[step])};
 }
 
 std::size_t StripFramework::bytes() const {

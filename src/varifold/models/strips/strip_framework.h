@@ -8,9 +8,11 @@
 #pragma once
 
 #include <varifold/mesh/triangle_mesh.h>
+#include <varifold/models/common/error_code.h>
 #include <varifold/models/common/level_table.h>
 #include <varifold/models/strips/nested_ranges.h>
 #include <varifold/strip/triangle_strips.h>
+#include <varifold/view/cone_code.h>
 #include <varifold/view/criteria.h>
 #include <cstddef>
 #include <cstdint>
@@ -95,7 +97,16 @@ class StripFramework {
   /// Of all collapses together. O(vertices).
   [[nodiscard]] std::uint64_t record_count() const;
   /// What is known of the surface that a step changes; `vertex` is the step's first one.
-  [[nodiscard]] RegionBounds region(std::uint32_t step, std::uint32_t vertex) const;
+  [[nodiscard]] RegionBounds region(std::uint32_t step, std::uint32_t vertex) const {
+    return {ball(step, vertex), unpack_cone(data_.cone[step]), step_error(step)};
+  }
+  /// Its parts without the normals, which take longer.
+  [[nodiscard]] Sphere ball(std::uint32_t step, std::uint32_t vertex) const {
+    return {data_.mesh.positions[vertex], data_.radius[step]};
+  }
+  [[nodiscard]] float step_error(std::uint32_t step) const {
+    return error_of_code(data_.error_codes[step]);
+  }
 
   /// Memory of all arrays but images; vertices included.
   [[nodiscard]] std::size_t bytes() const;
