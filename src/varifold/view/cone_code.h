@@ -47,7 +47,7 @@ inline constexpr int kAngleSteps = 1023;  // of 10 bits: 1 - cosine = 2 (code / 
 
 /// A code whose cone holds `cone`, and whose angle is seldom more than 0.2 degrees greater.
 [[nodiscard]] inline std::uint32_t pack_cone(const NormalCone& cone) {
-  constexpr float kMiddle = (cone_code::kAxisSteps - 1) / 2;
+  constexpr float kMiddle = 0.5f * (cone_code::kAxisSteps - 1);
   const Vec3 a = cone.axis;
   const float sum = std::abs(a.x) + std::abs(a.y) + std::abs(a.z);
   if (!(sum > 0) || cone.cosine <= -1) return kWideConeCode;

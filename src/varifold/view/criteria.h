@@ -126,15 +126,19 @@ class RefineCriteria {
 
   /// A region is to be refined where this is above the tolerance in pixels. O(1), pure.
   [[nodiscard]] float urgency(const RegionBounds& region) const {
-    if (is_placed_on(region.ball)) {
-      const float size = region.error + region.ball.radius;
-      return kFullDetail * (1.5f + (size > 0 ? region.error / size : 0.0f));
-    }
-    return view ? std::min(view->urgency(region), kFullDetail) : 0.0f;
+    return urgency(region.ball, region.error, 0, [&] { return region.cone; });
   }
-  /// Whether urgency() may be above `tolerance`, whatever the normals; cheap.
-  [[nodiscard]] bool may_exceed(float tolerance, const Sphere& ball, float error) const {
-    return (view && view->bound(ball, error) > tolerance) || is_placed_on(ball);
+  /// The same, or 0 where it is sure not to be above `least`; cone() is called only where normals
+  /// matter.
+  template <class ConeOf>
+  [[nodiscard]] float urgency(const Sphere& ball, float error, float least,
+                              const ConeOf& cone) const {
+    if (is_placed_on(ball)) {
+      const float size = error + ball.radius;
+      return kFullDetail * (1.5f + (size > 0 ? error / size : 0.0f));
+    }
+    if (!view || view->bound(ball, error) <= least) return 0;
+    return std::min(view->urgency({ball, cone(), error}), kFullDetail);
   }
 
  private:

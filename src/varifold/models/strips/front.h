@@ -3,6 +3,7 @@
 #pragma once
 
 #include <varifold/models/strips/strip_framework.h>
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -55,7 +56,7 @@ void StepUrgencies::ask(const StripFramework& model, const Urgency& urgency) {
     asked_[k] = greatest;
     for (;; ++dependency) {
       const std::uint32_t finer = *dependency & ~StripFrameworkData::kLastDependency;
-      if (*dependency != kNone && raised_[finer] > greatest) greatest = raised_[finer];
+      if (*dependency != kNone) greatest = std::max(greatest, raised_[finer]);
       if ((*dependency & StripFrameworkData::kLastDependency) != 0) break;
     }
     ++dependency;

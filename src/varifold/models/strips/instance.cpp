@@ -37,7 +37,8 @@ void StripFrameworkInstance::change(std::uint32_t first, std::uint32_t end, cons
   std::uint32_t vertex = levels.vertex_count(first);
   for (std::uint32_t k = first; k < end; ++k) {
     const LevelTable::Step step = levels.step(k);
-    if (split_[k] == 0 && is_split(k)) {
+    const bool wanted = is_split(k);
+    if (wanted && split_[k] == 0) {
       for (std::uint32_t i = 0; i < step.vertices; ++i) write(vertex + i, vertex + i);
       split_[k] = 1;
       vertex_count_ += step.vertices;
@@ -49,7 +50,8 @@ void StripFrameworkInstance::change(std::uint32_t first, std::uint32_t end, cons
   for (std::uint32_t k = end; k-- > first;) {
     const LevelTable::Step step = levels.step(k);
     vertex -= step.vertices;
-    if (split_[k] == 0 || is_split(k)) continue;
+    const bool wanted = is_split(k);
+    if (wanted || split_[k] == 0) continue;
     for (std::uint32_t i = 0; i < step.vertices; ++i) write(vertex + i, levels.target(vertex + i));
     split_[k] = 0;
     vertex_count_ -= step.vertices;
@@ -73,11 +75,9 @@ FrontStatistics StripFrameworkInstance::adapt(const RefineCriteria& criteria,
                                               const AdaptOptions& options) {
   // What does not exceed the tolerance is never split for its own sake, so how urgent it is does
   // not matter.
-  const float least = options.tolerance;
   urgencies_.ask(*model_, [&](std::uint32_t step, std::uint32_t vertex) {
-    return criteria.may_exceed(least, model_->ball(step, vertex), model_->step_error(step))
-               ? criteria.urgency(model_->region(step, vertex))
-               : 0.0f;
+    return criteria.urgency(model_->ball(step, vertex), model_->step_error(step), options.tolerance,
+                            [&] { return model_->cone(step); });
   });
   return settle(options);
 }
@@ -92,10 +92,9 @@ FrontStatistics StripFrameworkInstance::settle(const AdaptOptions& options) {
   // The front of a level has its coarser steps split and no other.
   std::uint32_t level = 0, splits = 0;
   for (std::uint32_t k = 0; k < finest; ++k) {
-    if (split_[k] == 0) continue;
-    ++splits;
-    level = k + 1;
-    if (urgencies_.asked(k) <= tolerance) ++statistics.forced_splits;
+    splits += split_[k];
+    level = split_[k] != 0 ? k + 1 : level;
+    statistics.forced_splits += split_[k] != 0 && urgencies_.asked(k) <= tolerance ? 1 : 0;
   }
   level_ = splits == level ? level : kNone;
   statistics.vertices = vertex_count_;

@@ -98,12 +98,13 @@ class StripFramework {
   [[nodiscard]] std::uint64_t record_count() const;
   /// What is known of the surface that a step changes; `vertex` is the step's first one.
   [[nodiscard]] RegionBounds region(std::uint32_t step, std::uint32_t vertex) const {
-    return {ball(step, vertex), unpack_cone(data_.cone[step]), step_error(step)};
+    return {ball(step, vertex), cone(step), step_error(step)};
   }
-  /// Its parts without the normals, which take longer.
+  /// Its parts; the normals take the longest.
   [[nodiscard]] Sphere ball(std::uint32_t step, std::uint32_t vertex) const {
     return {data_.mesh.positions[vertex], data_.radius[step]};
   }
+  [[nodiscard]] NormalCone cone(std::uint32_t step) const { return unpack_cone(data_.cone[step]); }
   [[nodiscard]] float step_error(std::uint32_t step) const {
     return error_of_code(data_.error_codes[step]);
   }
