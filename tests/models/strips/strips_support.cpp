@@ -39,6 +39,28 @@ NamedMesh torn_sphere(std::uint64_t seed) {
   return {"torn_sphere_" + std::to_string(seed), mesh};
 }
 
+// Bumpy, so that collapses come in no particular order. Each tip goes without changing any other
+// triangle, two of them at every vertex of the border.
+NamedMesh fringed_sheet(std::uint64_t seed) {
+  Random random(seed);
+  TriangleMesh mesh = grid(8, 8);
+  const std::vector<std::uint32_t> indices = mesh.indices;
+  for (std::size_t slot = 0; slot < indices.size(); ++slot) {
+    const std::uint32_t a = indices[slot], b = indices[slot % 3 == 2 ? slot - 2 : slot + 1];
+    bool is_border = true;
+    for (std::size_t other = 0; other < indices.size(); ++other)
+      if (indices[other] == b && indices[other % 3 == 2 ? other - 2 : other + 1] == a)
+        is_border = false;
+    if (!is_border) continue;
+    const Vec3 along = mesh.positions[b] - mesh.positions[a];
+    const Vec3 middle = 0.5f * (mesh.positions[a] + mesh.positions[b]);
+    mesh.indices.insert(mesh.indices.end(), {b, a, mesh.vertex_count()});
+    mesh.positions.push_back(middle + Vec3(along.y, -along.x, 0));
+  }
+  for (Vec3& p : mesh.positions) p.z = static_cast<float>(0.4 * random.uniform());
+  return {"fringed_sheet_" + std::to_string(seed), mesh};
+}
+
 NamedFramework make_framework(const NamedMesh& named) {
   SimplifyOptions options;
   options.threads = 1;
@@ -54,7 +76,10 @@ const std::vector<NamedFramework>& all_frameworks() {
   static const std::vector<NamedFramework> models = [] {
     std::vector<NamedFramework> made;
     for (const NamedMesh& named : all_groups()) made.push_back(make_framework(named));
-    for (const std::uint64_t seed : {1u, 2u, 3u}) made.push_back(make_framework(torn_sphere(seed)));
+    for (const std::uint64_t seed : {1u, 2u, 3u}) {
+      made.push_back(make_framework(torn_sphere(seed)));
+      made.push_back(make_framework(fringed_sheet(seed)));
+    }
     return made;
   }();
   return models;

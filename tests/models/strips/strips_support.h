@@ -28,8 +28,11 @@ struct NamedFramework {
 
 /// A sphere with short creases of its normals all over, which end inside the surface.
 [[nodiscard]] NamedMesh torn_sphere(std::uint64_t seed);
+/// A sheet with a triangle more on each edge of its border.
+[[nodiscard]] NamedMesh fringed_sheet(std::uint64_t seed);
 [[nodiscard]] NamedFramework make_framework(const NamedMesh& named);
-/// Every test mesh and three torn spheres, made once; and those with at most so many levels.
+/// Every test mesh, three torn spheres and three fringed sheets, made once; and those with at most
+/// so many levels.
 [[nodiscard]] const std::vector<NamedFramework>& all_frameworks();
 [[nodiscard]] std::vector<const NamedFramework*> small_frameworks(std::uint32_t levels);
 
