@@ -82,6 +82,20 @@ void print_levels(const Subject& subject) {
   }
 }
 
+// The level and the front that have the error of some level.
+void print_errors(const Subject& subject) {
+  const StripFramework& model = *subject.model;
+  StripFrameworkInstance instance(subject.model);
+  for (const float part : {0.5f, 0.1f, 0.02f}) {
+    const float error = model.error(model.level_for_fraction(part));
+    const std::uint32_t level = model.level_for_error(error);
+    const FrontStatistics front = instance.adapt_by(
+        [&](std::uint32_t step) { return model.step_error(step); }, {.tolerance = error});
+    std::printf("| %s | %.3g | %u | %u |\n", subject.name.c_str(), static_cast<double>(error),
+                model.triangle_count(level), front.triangles);
+  }
+}
+
 void print_plane_test(const Subject& subject) {
   const Box box = bounds(subject.detailed.mesh);
   StripFrameworkInstance instance(subject.model);
@@ -154,7 +168,7 @@ void print_seeks(const Subject& subject) {
 int main() {
   using namespace varifold::bench;
   const std::vector<std::string> names =
-      present({"cow.obj", "bunny.ply", "armadillo.ply", "igea.ply"});
+      present({"cow.obj", "bunny.ply", "armadillo.ply", "igea.ply", "fandisk.obj"});
   if (names.empty()) {
     std::fprintf(stderr, "no meshes: set VARIFOLD_MESHES to the folder of cow.obj, ...\n");
     return 1;
@@ -168,6 +182,8 @@ int main() {
   for (const Subject& subject : subjects) print_memory(subject);
   std::printf("\n| mesh | level | triangles | unfiltered | sent | per triangle | list |\n");
   for (const Subject& subject : subjects) print_levels(subject);
+  std::printf("\n| mesh | error | triangles of the level | of the front |\n");
+  for (const Subject& subject : subjects) print_errors(subject);
   std::printf(
       "\n| mesh | plane | vertices | triangles | sent | per triangle | forced splits | adapt ms | "
       "again ms | draw list ms |\n");
