@@ -3,6 +3,7 @@
 #include <apps/cli/stripifier.h>
 #include <varifold/models/lodstrips/build.h>
 #include <varifold/models/mts/build.h>
+#include <varifold/models/strips/build.h>
 #include <memory>
 
 namespace varifold::cli {
@@ -24,6 +25,20 @@ struct StripsBuild<MultiresolutionStrips> {
   }
   static MultiresolutionStrips build(const DetailedMesh& detailed, const Options& options) {
     return build_mts(detailed, make_strips(detailed, options.stripifier));
+  }
+};
+
+template <>
+struct StripsBuild<StripFramework> {
+  static constexpr const char* kHelp = "The strips framework: static strips, levels per region too";
+  struct Options {
+    StripifierOptions stripifier;
+  };
+  static void add_options(CLI::App& command, Options& options) {
+    add_stripifier_options(command, options.stripifier);
+  }
+  static StripFramework build(const DetailedMesh& detailed, const Options& options) {
+    return build_strip_framework(detailed, make_strips(detailed, options.stripifier));
   }
 };
 
@@ -110,6 +125,7 @@ void add_kind(CLI::App& build, CommandRunner& runner) {
 }  // namespace
 
 void add_build_strips(CLI::App& build, CommandRunner& runner) {
+  add_kind<StripFramework>(build, runner);
   add_kind<LodStrips>(build, runner);
   add_kind<MultiresolutionStrips>(build, runner);
 }

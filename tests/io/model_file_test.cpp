@@ -14,6 +14,7 @@
 #include <varifold/models/pm/build.h>
 #include <varifold/models/pm/instance.h>
 #include <varifold/models/pm/stream_reader.h>
+#include <varifold/models/strips/build.h>
 #include <varifold/simplify/simplify.h>
 #include <algorithm>
 
@@ -162,6 +163,10 @@ ProgressiveMesh built(const DetailedMesh& detailed) {
 template <>
 MultiresolutionStrips built(const DetailedMesh& detailed) {
   return build_mts(detailed, test::greedy_strips(detailed.mesh));
+}
+template <>
+StripFramework built(const DetailedMesh& detailed) {
+  return build_strip_framework(detailed, test::greedy_strips(detailed.mesh));
 }
 template <>
 LodStrips built(const DetailedMesh& detailed) {

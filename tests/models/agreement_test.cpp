@@ -7,6 +7,7 @@
 #include <varifold/models/lodstrips/build.h>
 #include <varifold/models/mts/build.h>
 #include <varifold/models/pm/build.h>
+#include <varifold/models/strips/build.h>
 #include <varifold/simplify/simplify.h>
 #include <varifold/strip/sequence_strips.h>
 #include <varifold/strip/stripify.h>
@@ -39,6 +40,7 @@ std::vector<Shown> all_models(const DetailedMesh& detailed) {
   return {show("pm", build_progressive_mesh(detailed)), show("mts", build_mts(detailed, strips)),
           show("mts of cache strips", build_mts(detailed, cached)),
           show("mts along the sequence", build_mts(detailed, stripify_along_sequence(detailed))),
+          show("strips", build_strip_framework(detailed, strips)),
           show("lodstrips in blocks", build_lod_strips(detailed))};
 }
 

@@ -9,6 +9,8 @@
 #include <varifold/models/mts/instance.h>
 #include <varifold/models/pm/encoding.h>
 #include <varifold/models/pm/instance.h>
+#include <varifold/models/strips/encoding.h>
+#include <varifold/models/strips/instance.h>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -68,6 +70,27 @@ struct ModelKind<LodStrips> {
   static std::vector<std::byte> encode(const LodStrips& model) { return encode_lod_strips(model); }
 };
 
+template <>
+struct ModelKind<StripFramework> {
+  using Instance = StripFrameworkInstance;
+  static constexpr const char* kName = "strips";
+  static constexpr std::uint32_t kFourcc = fourcc("strp");
+  static constexpr std::uint32_t kChunk = fourcc("DATA");
+  static constexpr bool kDense = false;
+  static Result<StripFramework> decode(std::span<const std::byte> bytes) {
+    return decode_strip_framework(bytes);
+  }
+  static std::vector<std::byte> encode(const StripFramework& model) {
+    return encode_strip_framework(model);
+  }
+  /// Full detail on the side of a plane that its normal points to, the base elsewhere.
+  static void adapt_to_plane(Instance& instance, const Vec3& point, const Vec3& normal) {
+    RefineCriteria criteria;
+    criteria.plane = Plane{normal, -glm::dot(normal, point)};
+    instance.adapt(criteria);
+  }
+};
+
 template <class... Models>
 struct ModelList {
   using Any = std::variant<std::shared_ptr<const Models>...>;
@@ -77,7 +100,7 @@ struct ModelList {
     (visit.template operator()<Models>(), ...);
   }
 };
-using AllModels = ModelList<ProgressiveMesh, LodStrips, MultiresolutionStrips>;
+using AllModels = ModelList<ProgressiveMesh, StripFramework, LodStrips, MultiresolutionStrips>;
 
 /// One immutable model of any kind; std::visit with a generic lambda, whose parameter is a
 /// std::shared_ptr<const Model>. All kinds satisfy UniformModel, their instances UniformInstance.
