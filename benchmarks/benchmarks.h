@@ -5,6 +5,7 @@ namespace varifold::bench {
 
 void register_simplify();
 void register_progressive_mesh();
+void register_strip_framework();
 void register_io();
 void register_measure();
 void register_strips();

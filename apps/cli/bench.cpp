@@ -1,14 +1,15 @@
-// varifold bench: how fast models change their level.
-//
-// Based on: the linear, exponential and random tests by which the LodStrips thesis measures
-//   extraction.
+// varifold bench: how fast models change their level, and how fast the levels are drawn.
+#include <apps/cli/bench_path.h>
 #include <apps/cli/commands.h>
 #include <apps/cli/input.h>
+#include <apps/cli/level_options.h>
 #include <fmt/format.h>
-#include <varifold/base/random.h>
-#include <varifold/models/pm/instance.h>
+#include <varifold/io/any_model.h>
+#include <varifold/render/headless_context.h>
+#include <varifold/render/renderer.h>
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,85 +19,234 @@ namespace {
 struct BenchCommand {
   CommonOptions common;
   std::vector<std::string> inputs;
-  std::string test = "linear";
-  std::uint32_t steps = 1000;
-  std::uint64_t seed = 1;
+  BenchTest test;
+  std::string draw = "auto";
 };
 
-// Equal strides from full detail to the base and back.
-std::vector<std::uint32_t> linear_path(std::uint32_t finest, std::uint32_t steps) {
-  std::vector<std::uint32_t> path;
-  for (std::uint32_t i = 0; i < steps; ++i) {
-    const double t = 2.0 * (i + 1) / steps;
-    path.push_back(static_cast<std::uint32_t>(finest * (t <= 1 ? 1 - t : t - 1)));
+/// Models with levels per region say how they follow a plane: full detail on the side that its
+/// normal points to.
+template <class Model>
+concept FollowsPlane = requires(InstanceOf<Model>& instance, const Vec3& vector) {
+  ModelKind<Model>::adapt_to_plane(instance, vector, vector);
+};
+
+/// Draws every step of a test into a small picture, so that submission counts more than pixels.
+class BenchDevice {
+ public:
+  static Result<BenchDevice> create() {
+    auto context = HeadlessContext::create();
+    if (!context) return tl::unexpected(std::move(context.error()));
+    auto renderer = Renderer::create();
+    if (!renderer) return tl::unexpected(std::move(renderer.error()));
+    return BenchDevice(std::move(*context), std::move(*renderer));
   }
-  return path;
-}
+  [[nodiscard]] const std::string& name() const { return context_.description(); }
 
-// Down and up again like an object that goes away at a steady speed: the detail that it needs falls
-// with the square of its distance, here from one to thirty times the nearest.
-std::vector<std::uint32_t> exponential_path(std::uint32_t finest, std::uint32_t steps) {
-  std::vector<std::uint32_t> path;
-  for (std::uint32_t i = 0; i < steps; ++i) {
-    const double t = 2.0 * (i + 1) / steps;
-    const double distance = 1 + 29 * (t <= 1 ? t : 2 - t);
-    path.push_back(static_cast<std::uint32_t>(finest / (distance * distance)));
+  Result<void> look_at(std::span<const Vec3> points, bool call_per_strip) {
+    ViewOptions view;
+    view.width = view.height = 256;
+    camera_ = make_camera(view, points);
+    style_.call_per_strip = call_per_strip;
+    if (mesh_) renderer_.remove(*mesh_);
+    mesh_.reset();
+    return {};
   }
-  return path;
-}
-
-std::vector<std::uint32_t> random_path(std::uint32_t finest, const BenchCommand& command) {
-  Random random(command.seed);
-  std::vector<std::uint32_t> path(command.steps);
-  for (std::uint32_t& level : path) level = random.below(finest + 1);
-  return path;
-}
-
-std::vector<std::uint32_t> path_of(const BenchCommand& command, std::uint32_t finest) {
-  if (command.test == "linear") return linear_path(finest, command.steps);
-  if (command.test == "exponential") return exponential_path(finest, command.steps);
-  return random_path(finest, command);
-}
-
-Json bench_model(const BenchCommand& command, const SharedModel& model) {
-  const std::vector<std::uint32_t> path = path_of(command, model->finest_level());
-  ProgressiveMeshInstance instance(model);
-  instance.go_to_level(model->finest_level());
-  std::uint64_t collapses = 0, indices = 0;
-  std::uint32_t before = instance.level();
-  const Stopwatch watch;
-  for (const std::uint32_t level : path) {
-    instance.go_to_level(level);
-    for (const DrawRange& range : instance.draw_list().ranges) indices += range.index_count;
-    collapses += level > before ? level - before : before - level;
-    before = level;
+  /// Uploads what changed, draws, waits for the device.
+  Result<void> draw(const DrawList& list) {
+    if (mesh_) {
+      if (auto updated = renderer_.update(*mesh_, list); !updated)
+        return tl::unexpected(updated.error());
+    } else {
+      const auto mesh = renderer_.add(list);
+      if (!mesh) return tl::unexpected(mesh.error());
+      mesh_ = *mesh;
+    }
+    if (auto begun = renderer_.begin(camera_, {.samples = 1}); !begun) return begun;
+    if (auto drawn = renderer_.draw(*mesh_, list, style_); !drawn) return drawn;
+    renderer_.finish();
+    return {};
   }
-  const double seconds = watch.seconds();
-  return {{"kind", "pm"},
-          {"test", command.test},
-          {"steps", command.steps},
-          {"seconds_total", seconds},
-          {"seconds_extraction", seconds},
-          {"seconds_drawing", nullptr},  // nothing is drawn
-          {"collapses", collapses},
-          {"collapses_per_second", static_cast<double>(collapses) / std::max(seconds, 1e-9)},
-          {"indices_submitted", indices},
-          {"bytes_per_vertex",
-           static_cast<double>(model->bytes()) / std::max(1u, model->data().mesh.vertex_count())}};
+
+ private:
+  BenchDevice(HeadlessContext context, Renderer renderer)
+      : context_(std::move(context)), renderer_(std::move(renderer)) {}
+
+  HeadlessContext context_;
+  Renderer renderer_;
+  Camera camera_;
+  DrawStyle style_;
+  std::optional<GpuMesh> mesh_;
+};
+
+/// One walk through a test.
+template <class Model>
+class BenchWalk {
+ public:
+  BenchWalk(const BenchCommand& command, const std::shared_ptr<const Model>& model,
+            BenchDevice* device)
+      : command_(command), model_(model), instance_(model), device_(device) {
+    for (const Vec3& p : model_->attributes().positions) box_.add(p);
+  }
+
+  Result<Json> run() {
+    instance_.go_to_level(model_->finest_level());
+    const DrawList first = instance_.draw_list();
+    if (device_) {
+      if (auto set = device_->look_at(model_->attributes().positions, command_.draw == "strips");
+          !set)
+        return tl::unexpected(set.error());
+      if (auto drawn = device_->draw(first); !drawn) return tl::unexpected(drawn.error());
+    }
+    const std::vector<std::uint32_t> path = bench_path(command_.test, model_->finest_level());
+    const std::uint32_t steps = command_.test.steps;
+    for (std::uint32_t step = 0; step < steps; ++step) {
+      const Stopwatch watch;
+      if constexpr (FollowsPlane<Model>) {
+        if (command_.test.name == "plane")
+          move_plane((step + 1.0) / steps);
+        else
+          instance_.go_to_level(path[step]);
+      } else {
+        instance_.go_to_level(path[step]);
+      }
+      const DrawList list = instance_.draw_list();
+      extraction_ += watch.seconds();
+      if (auto drawn = draw(list); !drawn) return tl::unexpected(drawn.error());
+      note(step, list);
+    }
+    return result();
+  }
+
+ private:
+  Result<void> draw(const DrawList& list) {
+    if (!device_) return {};
+    const Stopwatch watch;
+    auto drawn = device_->draw(list);
+    drawing_ += watch.seconds();
+    return drawn;
+  }
+
+  // Along x, from before the model to behind it; what it has passed is coarse.
+  void move_plane(double part) {
+    if constexpr (FollowsPlane<Model>) {
+      const auto x = static_cast<float>(box_.lower.x + part * (box_.upper.x - box_.lower.x));
+      ModelKind<Model>::adapt_to_plane(instance_, Vec3(x, 0, 0), Vec3(1, 0, 0));
+    }
+  }
+
+  // At most 101 samples of all steps, the first and the last among them.
+  void note(std::uint32_t step, const DrawList& list) {
+    const SubmittedIndices sent = submitted_indices(list);
+    indices_ += sent.indices;
+    const std::uint32_t level = instance_.level();
+    if (command_.test.name != "plane") {
+      collapses_ += level > before_ ? level - before_ : before_ - level;
+      before_ = level;
+    }
+    const std::uint64_t last = command_.test.steps - 1;
+    const std::uint64_t intervals = std::clamp<std::uint64_t>(last, 1, 100);
+    if (step != samples_.size() * last / intervals) return;
+    Json sample{{"step", step},
+                {"indices", sent.indices},
+                {"vertices", sent.vertices},
+                {"strips", sent.strips}};
+    if (command_.test.name != "plane") {
+      sample["level"] = level;
+      sample["triangles"] = model_->triangle_count(level);
+    }
+    samples_.push_back(std::move(sample));
+  }
+
+  Json result() const {
+    const double total = extraction_ + drawing_;
+    const double vertices = std::max(1u, model_->vertex_count(model_->finest_level()));
+    return {{"kind", ModelKind<Model>::kName},
+            {"test", command_.test.name},
+            {"steps", command_.test.steps},
+            {"draw", device_ ? command_.draw : "none"},
+            {"device", device_ ? Json(device_->name()) : Json()},
+            {"seconds_total", total},
+            {"seconds_extraction", extraction_},
+            {"seconds_drawing", device_ ? Json(drawing_) : Json()},
+            {"extraction_share", total > 0 ? extraction_ / total : 0},
+            {"collapses", collapses_},
+            {"collapses_per_second", static_cast<double>(collapses_) / std::max(extraction_, 1e-9)},
+            {"indices_submitted", indices_},
+            {"model_bytes", model_->bytes()},
+            {"instance_bytes", instance_.bytes()},
+            {"bytes_per_vertex", static_cast<double>(model_->bytes()) / vertices},
+            {"samples", samples_}};
+  }
+
+  const BenchCommand& command_;
+  std::shared_ptr<const Model> model_;
+  InstanceOf<Model> instance_;
+  BenchDevice* device_;
+  Box box_;
+  double extraction_ = 0, drawing_ = 0;
+  std::uint64_t collapses_ = 0, indices_ = 0;
+  std::uint32_t before_ = model_->finest_level();
+  Json samples_ = Json::array();
+};
+
+Result<Json> bench_model(const BenchCommand& command, const std::string& input, const AnyModel& any,
+                         BenchDevice* device) {
+  return std::visit(
+      [&]<class Model>(const std::shared_ptr<const Model>& model) -> Result<Json> {
+        if (command.test.name == "plane" && !FollowsPlane<Model>)
+          wrong_usage(input + ": --test plane needs levels per region; a model of kind " +
+                      ModelKind<Model>::kName + " has one level for all");
+        return BenchWalk<Model>(command, model, device).run();
+      },
+      any);
 }
 
-CommandResult run_bench(const BenchCommand& command) {
+void add_row(const std::string& input, const Json& result, Report& report) {
+  std::string text =
+      fmt::format("{}: {:.1f} M collapses/s, {} of extraction", result["kind"].get<std::string>(),
+                  result["collapses_per_second"].get<double>() * 1e-6,
+                  format_seconds(result["seconds_extraction"].get<double>()));
+  if (!result["seconds_drawing"].is_null())
+    text += fmt::format(", {} of drawing ({:.1f} % extraction)",
+                        format_seconds(result["seconds_drawing"].get<double>()),
+                        100 * result["extraction_share"].get<double>());
+  text += fmt::format(", {} indices in {} steps",
+                      format_count(result["indices_submitted"].get<std::uint64_t>()),
+                      format_count(result["steps"].get<std::uint64_t>()));
+  report.row(input, text);
+}
+
+// Without a device, "auto" draws nothing.
+Result<std::optional<BenchDevice>> make_device(BenchCommand& command) {
+  std::optional<BenchDevice> device;
+  if (command.draw == "none") return device;
+  auto made = BenchDevice::create();
+  if (made) {
+    if (command.draw == "auto") command.draw = "multi";
+    device.emplace(std::move(*made));
+    return device;
+  }
+  if (command.draw != "auto") return tl::unexpected(std::move(made.error()));
+  print_message("bench: nothing is drawn: " + made.error().message);
+  return device;
+}
+
+CommandResult run_bench(BenchCommand command) {
+  std::vector<AnyModel> models;
+  for (const std::string& input : command.inputs) {
+    auto any = read_any_model(input_path(input));
+    if (!any) return tl::unexpected(any.error());
+    models.push_back(std::move(*any));
+  }
+  auto device = make_device(command);
+  if (!device) return tl::unexpected(device.error());
   Report report;
   Json results = Json::array();
-  for (const std::string& input : command.inputs) {
-    const auto model = read_model(input_path(input));
-    if (!model) return tl::unexpected(model.error());
-    Json result = bench_model(command, *model);
-    report.row(input, fmt::format("{:.1f} M collapses/s, {} in {} steps",
-                                  result["collapses_per_second"].get<double>() * 1e-6,
-                                  format_seconds(result["seconds_total"].get<double>()),
-                                  format_count(command.steps)));
-    results.push_back(std::move(result));
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    auto result = bench_model(command, command.inputs[i], models[i], *device ? &**device : nullptr);
+    if (!result) return fail_in(command.inputs[i], std::move(result.error()));
+    add_row(command.inputs[i], *result, report);
+    results.push_back(std::move(*result));
   }
   report.set("results", std::move(results));
   return finish(report, command.common);
@@ -105,23 +255,32 @@ CommandResult run_bench(const BenchCommand& command) {
 }  // namespace
 
 void add_bench(CLI::App& app, CommandRunner& runner) {
-  CLI::App* const command = app.add_subcommand("bench", "Time the changes of level of models");
+  CLI::App* const command =
+      app.add_subcommand("bench", "Time the changes of level of models, and their drawing");
   const auto options = std::make_shared<BenchCommand>();
   command->add_option("models", options->inputs, "Model files")->required()->type_name("MODEL...");
   command
-      ->add_option("--test", options->test,
+      ->add_option("--test", options->test.name,
                    "linear: equal strides down and up; exponential: as an object goes away and "
-                   "comes back; random: the worst case")
-      ->check(CLI::IsMember({"linear", "exponential", "random"}))
+                   "comes back; random: the worst case; plane: full detail on one side of a plane "
+                   "that moves along x, for models with levels per region")
+      ->check(CLI::IsMember({"linear", "exponential", "random", "plane"}))
       ->capture_default_str()
       ->type_name("TEST");
-  command->add_option("--steps", options->steps, "Changes of level")
+  command->add_option("--steps", options->test.steps, "Changes of level")
       ->check(CLI::Range(1, 10000000))
       ->capture_default_str()
       ->type_name("N");
-  command->add_option("--seed", options->seed, "Of the random test")
+  command->add_option("--seed", options->test.seed, "Of the random test")
       ->capture_default_str()
       ->type_name("S");
+  command
+      ->add_option("--draw", options->draw,
+                   "none: extraction alone; strips: a call for each strip; multi: one for all; "
+                   "auto: multi where there is a device")
+      ->check(CLI::IsMember({"auto", "none", "strips", "multi"}))
+      ->capture_default_str()
+      ->type_name("HOW");
   runner.add_common(*command, options->common, false);
   runner.attach(*command, options->common, [options] { return run_bench(*options); });
 }

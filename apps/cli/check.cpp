@@ -81,28 +81,35 @@ CommandResult check_mesh(const CheckCommand& command, const std::filesystem::pat
   return tell(command, faults, report);
 }
 
-CommandResult check_model(const CheckCommand& command, const std::filesystem::path& path) {
+template <class Model>
+CommandResult check_levels(const CheckCommand& command, const std::filesystem::path& path,
+                           const std::shared_ptr<const Model>& model) {
   const Stopwatch watch;
-  if (!command.against.empty()) wrong_usage("--against is for meshes");
-  // Reading verifies the checksums of all chunks.
-  const auto model = read_model(path);
-  if (!model) return tl::unexpected(model.error());
   ModelCheckOptions options;
   options.threads = command.common.threads;
   options.progress = show_progress(path.filename().string());
-  auto check = check_progressive_mesh(*model, options);
+  auto check = varifold::check_model<InstanceOf<Model>>(model, options);
   end_progress();
   if (!check) return fail_in(path.string(), std::move(check.error()));
+  const std::uint32_t finest = model->finest_level();
   Report report;
   report.text("type", "type", "model");
-  report.text("kind", "kind", "pm");
-  report.count("vertices", "vertices", (*model)->data().mesh.vertex_count());
-  report.count("triangles", "triangles", (*model)->triangle_count());
-  report.count("levels", "levels", std::uint64_t{(*model)->finest_level()} + 1);
+  report.text("kind", "kind", ModelKind<Model>::kName);
+  report.count("vertices", "vertices", model->vertex_count(finest));
+  report.count("triangles", "triangles", model->triangle_count(finest));
+  report.count("levels", "levels", std::uint64_t{finest} + 1);
   report.count("levels_checked", "levels checked", check->levels_checked);
   report.count("distances_checked", "errors measured again", check->distances_checked);
   report.seconds("seconds", "time", watch.seconds());
   return tell(command, check->faults, report);
+}
+
+CommandResult check_model_file(const CheckCommand& command, const std::filesystem::path& path) {
+  if (!command.against.empty()) wrong_usage("--against is for meshes");
+  // Reading verifies the checksums of all chunks.
+  const auto any = read_any_model(path);
+  if (!any) return tl::unexpected(any.error());
+  return std::visit([&](const auto& model) { return check_levels(command, path, model); }, *any);
 }
 
 }  // namespace
@@ -125,7 +132,7 @@ void add_check(CLI::App& app, CommandRunner& runner) {
   runner.add_common(*command, options->common, true);
   runner.attach(*command, options->common, [options] {
     const auto path = input_path(options->input);
-    return is_model_file(path) ? check_model(*options, path) : check_mesh(*options, path);
+    return is_model_file(path) ? check_model_file(*options, path) : check_mesh(*options, path);
   });
 }
 

@@ -24,6 +24,8 @@ void tell(const DemoPlace& place, const std::string& line) {
 
 namespace {
 
+using SharedModel = std::shared_ptr<const ProgressiveMesh>;
+
 std::filesystem::path model_path(const DemoPlace& place, const DemoShape& shape) {
   return place.folder / (shape.name + ".vfm");
 }
@@ -250,10 +252,11 @@ Camera crowd_camera(const std::vector<Vec3>& places) {
 }  // namespace
 
 Result<DemoCrowd> show_crowd(const DemoPlace& place, const DemoShape& shape) {
-  const auto model = read_model(model_path(place, shape));
-  if (!model) return tl::unexpected(model.error());
+  auto read = read_progressive_mesh(model_path(place, shape));
+  if (!read) return tl::unexpected(std::move(read.error()));
+  const auto model = std::make_shared<const ProgressiveMesh>(std::move(*read));
   Sphere ball{Vec3(0), 0};
-  for (const Vec3& p : (*model)->data().mesh.positions)
+  for (const Vec3& p : model->data().mesh.positions)
     ball.radius = std::max(ball.radius, glm::length(p));
   const std::vector<Vec3> places = crowd_places();
   const Camera camera = crowd_camera(places);
@@ -265,10 +268,10 @@ Result<DemoCrowd> show_crowd(const DemoPlace& place, const DemoShape& shape) {
   std::vector<std::unique_ptr<ProgressiveMeshInstance>> instances;
   for (const Vec3& at : places) {
     const float pixel = scale.pixel_size(distance_to(Sphere{at, ball.radius}, camera.eye));
-    auto instance = std::make_unique<ProgressiveMeshInstance>(*model);
-    instance->go_to_level((*model)->level_for_error(pixel));
+    auto instance = std::make_unique<ProgressiveMeshInstance>(model);
+    instance->go_to_level(model->level_for_error(pixel));
     crowd.triangles += instance->triangle_count();
-    crowd.full_triangles += (*model)->triangle_count();
+    crowd.full_triangles += model->triangle_count();
     Painter::Item item{instance->draw_list(), {}};
     item.style.color_mode = ColorMode::kVertexColor;
     item.style.placement[3] = Vec4(at, 1);

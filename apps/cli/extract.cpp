@@ -2,7 +2,6 @@
 #include <apps/cli/commands.h>
 #include <apps/cli/input.h>
 #include <apps/cli/level_options.h>
-#include <varifold/models/pm/instance.h>
 #include <memory>
 #include <optional>
 
@@ -17,11 +16,39 @@ struct ExtractCommand {
   std::string input, output;
 };
 
-void warn_of_base(const ExtractCommand& command, const ProgressiveMesh& model) {
-  const std::uint32_t base = model.triangle_count(0);
+void warn_of_base(const ExtractCommand& command, std::uint32_t base) {
   if (command.level.triangles && *command.level.triangles < base)
     print_message(command.input + ": warning: the base has " + format_count(base) +
                   " triangles; there is nothing coarser");
+}
+
+template <class Model>
+CommandResult extract_from(const ExtractCommand& command, const std::shared_ptr<const Model>& model,
+                           const Stopwatch& watch) {
+  const auto output = output_path(command.output);
+  std::optional<Camera> camera;
+  if (command.has_view) camera = make_camera(command.view, model->attributes().positions);
+  const ChosenLevel chosen = choose_level(*model, command.level, camera ? &*camera : nullptr);
+  warn_of_base(command, model->triangle_count(0));
+  InstanceOf<Model> instance(model);
+  instance.go_to_level(chosen.level);
+  const TriangleMesh mesh = without_unused_vertices(instance.extract());
+  if (auto written = write_mesh_loudly(mesh, output); !written)
+    return tl::unexpected(written.error());
+
+  Report report;
+  report.text("kind", "kind", ModelKind<Model>::kName);
+  report.count("level", "level", chosen.level);
+  report.count("finest_level", "of", model->finest_level());
+  report.count("vertices", "vertices", mesh.vertex_count());
+  report.count("triangles", "triangles", mesh.triangle_count());
+  report.length("error", "error", model->error(chosen.level));
+  if (camera) {
+    report.length("pixel_error", "error in pixels", chosen.pixel_error);
+    report.set("forced_splits", 0);  // a uniform model has none
+  }
+  report.seconds("seconds", "time", watch.seconds());
+  return finish(report, command.common, output);
 }
 
 CommandResult run_extract(const ExtractCommand& command) {
@@ -29,31 +56,9 @@ CommandResult run_extract(const ExtractCommand& command) {
   if (auto writable = check_mesh_output(output, command.common); !writable)
     return tl::unexpected(writable.error());
   const Stopwatch watch;
-  const auto model = read_model(input);
-  if (!model) return tl::unexpected(model.error());
-  std::optional<Camera> camera;
-  if (command.has_view) camera = make_camera(command.view, (*model)->data().mesh.positions);
-  const ChosenLevel chosen = choose_level(**model, command.level, camera ? &*camera : nullptr);
-  warn_of_base(command, **model);
-  ProgressiveMeshInstance instance(*model);
-  instance.go_to_level(chosen.level);
-  const TriangleMesh mesh = without_unused_vertices(instance.extract());
-  if (auto written = write_mesh_loudly(mesh, output); !written)
-    return tl::unexpected(written.error());
-
-  Report report;
-  report.text("kind", "kind", "pm");
-  report.count("level", "level", chosen.level);
-  report.count("finest_level", "of", (*model)->finest_level());
-  report.count("vertices", "vertices", mesh.vertex_count());
-  report.count("triangles", "triangles", mesh.triangle_count());
-  report.length("error", "error", (*model)->error(chosen.level));
-  if (camera) {
-    report.length("pixel_error", "error in pixels", chosen.pixel_error);
-    report.set("forced_splits", 0);  // a uniform model has none
-  }
-  report.seconds("seconds", "time", watch.seconds());
-  return finish(report, command.common, output);
+  const auto any = read_any_model(input);
+  if (!any) return tl::unexpected(any.error());
+  return std::visit([&](const auto& model) { return extract_from(command, model, watch); }, *any);
 }
 
 }  // namespace

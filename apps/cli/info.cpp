@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <varifold/io/container.h>
 #include <varifold/mesh/topology.h>
+#include <varifold/models/common/uniform_model.h>
 #include <memory>
 
 namespace varifold::cli {
@@ -115,7 +116,8 @@ void report_chunks(const Container& container, Report& report) {
   report.set("chunks", std::move(chunks));
 }
 
-void report_levels(const ProgressiveMesh& model, Report& report) {
+template <class Model>
+void report_levels(const Model& model, Report& report) {
   Json levels = Json::array();
   constexpr int kShown = 5;
   for (int i = 0; i < kShown; ++i) {
@@ -132,39 +134,46 @@ void report_levels(const ProgressiveMesh& model, Report& report) {
   report.set("level_samples", std::move(levels));
 }
 
-CommandResult model_info(const InfoCommand& command, const std::filesystem::path& path) {
-  const auto model = read_model(path);
-  if (!model) return tl::unexpected(model.error());
-  const ProgressiveMesh& pm = **model;
-  const TriangleMesh& mesh = pm.data().mesh;
-  const std::uint64_t vertices = std::max(1u, mesh.vertex_count());
-  Report report;
+template <class Model>
+void report_model(const Model& model, Report& report) {
+  const TriangleMesh& mesh = model.attributes();
+  const std::uint32_t finest = model.finest_level();
   report.text("type", "type", "model");
-  report.text("kind", "kind", "pm");
+  report.text("kind", "kind", ModelKind<Model>::kName);
   report.count("vertices", "vertices", mesh.vertex_count());
-  report.count("triangles", "triangles", mesh.triangle_count());
-  report.count("base_vertices", "base vertices", pm.vertex_count(0));
-  report.count("base_triangles", "base triangles", pm.triangle_count(0));
-  report.count("levels", "levels", std::uint64_t{pm.finest_level()} + 1);
-  report.length("base_error", "error of the base", pm.error(0));
-  report.length("full_error", "error of the full level", pm.error(pm.finest_level()));
-  report.set("error_is_measured", pm.data().error_is_measured);
-  report.set("moves_vertices", pm.moves_vertices());
+  report.count("triangles", "triangles", model.triangle_count(finest));
+  report.count("base_vertices", "base vertices", model.vertex_count(0));
+  report.count("base_triangles", "base triangles", model.triangle_count(0));
+  report.count("levels", "levels", std::uint64_t{finest} + 1);
+  report.length("base_error", "error of the base", model.error(0));
+  report.length("full_error", "error of the full level", model.error(finest));
+  report.set("error_is_measured", error_is_measured(model));
+  if constexpr (requires { model.moves_vertices(); })
+    report.set("moves_vertices", model.moves_vertices());
   Box box;
   for (const Vec3& p : mesh.positions) box.add(p);
   report_bounds(box, report);
   report_attributes(mesh, report);
-  report_levels(pm, report);
-  report.bytes("model_bytes", "in memory", pm.bytes());
+  report_levels(model, report);
+  report.bytes("model_bytes", "in memory", model.bytes());
   report.length("bytes_per_vertex", "bytes a vertex, memory",
-                static_cast<double>(pm.bytes()) / static_cast<double>(vertices));
+                static_cast<double>(model.bytes()) / std::max(1u, mesh.vertex_count()));
+}
+
+CommandResult model_info(const InfoCommand& command, const std::filesystem::path& path) {
+  const auto any = read_any_model(path);
+  if (!any) return tl::unexpected(any.error());
+  Report report;
+  std::visit([&](const auto& model) { report_model(*model, report); }, *any);
+  const auto vertices =
+      static_cast<double>(std::max<std::uint64_t>(1, report.values()["vertices"]));
   // What came through a pipe is gone.
   std::error_code no_file;
   const std::uint64_t file_bytes = std::filesystem::file_size(path, no_file);
   if (!no_file) {
     report.bytes("file_bytes", "file", file_bytes);
     report.length("file_bytes_per_vertex", "bytes a vertex, file",
-                  static_cast<double>(file_bytes) / static_cast<double>(vertices));
+                  static_cast<double>(file_bytes) / vertices);
     const auto container = Container::open(path);
     if (!container) return tl::unexpected(container.error());
     report_chunks(*container, report);

@@ -85,12 +85,6 @@ Result<ImportedMesh> read_surface(const std::filesystem::path& path) {
   return imported;
 }
 
-Result<SharedModel> read_model(const std::filesystem::path& path) {
-  auto model = read_progressive_mesh(path);
-  if (!model) return tl::unexpected(std::move(model.error()));
-  return std::make_shared<const ProgressiveMesh>(std::move(*model));
-}
-
 namespace {
 
 std::optional<MeshFormat> written_format(const std::filesystem::path& path) {

@@ -4,7 +4,7 @@
 #include <apps/cli/context.h>
 #include <varifold/base/result.h>
 #include <varifold/io/imported_mesh.h>
-#include <varifold/models/pm/progressive_mesh.h>
+#include <varifold/io/model_file.h>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -34,9 +34,6 @@ void prepare_mesh(TriangleMesh& mesh, const PrepareOptions& options);
 [[nodiscard]] Result<ImportedMesh> read_mesh_loudly(const std::filesystem::path& path);
 /// The same for jobs that need triangles: a mesh without any is invalid.
 [[nodiscard]] Result<ImportedMesh> read_surface(const std::filesystem::path& path);
-
-using SharedModel = std::shared_ptr<const ProgressiveMesh>;
-[[nodiscard]] Result<SharedModel> read_model(const std::filesystem::path& path);
 
 /// Writes a mesh by the extension of its path, and tells what the format could not hold.
 [[nodiscard]] Result<void> write_mesh_loudly(const TriangleMesh& mesh,

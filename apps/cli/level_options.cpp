@@ -141,33 +141,10 @@ void check_level_options(const LevelOptions& options) {
         "one LEVEL only: --lod, --triangles, --vertices, --error or --pixels (with --triangles)");
 }
 
-namespace {
-
-Vec3 nearest_point(const Box& box, const Vec3& eye) {
-  return glm::clamp(eye, box.lower, box.upper);
-}
-
-}  // namespace
-
-ChosenLevel choose_level(const ProgressiveMesh& model, const LevelOptions& options,
-                         const Camera* camera) {
-  ChosenLevel chosen{model.finest_level(), 0};
+Vec3 nearest_point(std::span<const Vec3> points, const Vec3& eye) {
   Box box;
-  for (const Vec3& p : model.data().mesh.positions) box.add(p);
-  if (options.lod) chosen.level = model.level_for_fraction(static_cast<float>(*options.lod));
-  if (options.vertices) chosen.level = model.level_for_vertices(*options.vertices);
-  if (options.error) chosen.level = model.level_for_error(static_cast<float>(*options.error));
-  if (options.triangles) chosen.level = model.level_for_triangles(*options.triangles);
-  if (!camera || box.empty()) return chosen;
-
-  const PixelScale scale(*camera);
-  const Vec3 nearest = nearest_point(box, camera->eye);
-  if (options.pixels) {
-    const float error = scale.error_of(static_cast<float>(*options.pixels), nearest);
-    chosen.level = std::min(chosen.level, model.level_for_error(error));
-  }
-  chosen.pixel_error = scale.pixels_of(model.error(chosen.level), nearest);
-  return chosen;
+  for (const Vec3& p : points) box.add(p);
+  return glm::clamp(eye, box.lower, box.upper);
 }
 
 }  // namespace varifold::cli

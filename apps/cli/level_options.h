@@ -1,9 +1,10 @@
 // Which level of a model, seen from where: the LEVEL of the command line.
 #pragma once
 
-#include <varifold/models/pm/progressive_mesh.h>
+#include <varifold/models/common/uniform_model.h>
 #include <varifold/view/camera.h>
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -35,6 +36,9 @@ void add_level_options(CLI::App& command, LevelOptions& options);
 /// Wrong usage where several levels are asked for that do not go together.
 void check_level_options(const LevelOptions& options);
 
+/// The point of the bounds of `points` that is nearest to the eye.
+[[nodiscard]] Vec3 nearest_point(std::span<const Vec3> points, const Vec3& eye);
+
 struct ChosenLevel {
   std::uint32_t level = 0;
   float pixel_error = 0;  ///< of the level, where there is a camera
@@ -44,7 +48,24 @@ struct ChosenLevel {
 ///
 /// --pixels: the coarsest whose error covers at most so many pixels at the point of the bounds that
 /// is nearest to the eye; with --triangles the coarser of the two.
-[[nodiscard]] ChosenLevel choose_level(const ProgressiveMesh& model, const LevelOptions& options,
-                                       const Camera* camera);
+template <UniformModel Model>
+[[nodiscard]] ChosenLevel choose_level(const Model& model, const LevelOptions& options,
+                                       const Camera* camera) {
+  ChosenLevel chosen{model.finest_level(), 0};
+  if (options.lod) chosen.level = model.level_for_fraction(static_cast<float>(*options.lod));
+  if (options.vertices) chosen.level = model.level_for_vertices(*options.vertices);
+  if (options.error) chosen.level = model.level_for_error(static_cast<float>(*options.error));
+  if (options.triangles) chosen.level = model.level_for_triangles(*options.triangles);
+  if (!camera || model.attributes().positions.empty()) return chosen;
+
+  const PixelScale scale(*camera);
+  const Vec3 nearest = nearest_point(model.attributes().positions, camera->eye);
+  if (options.pixels) {
+    const float error = scale.error_of(static_cast<float>(*options.pixels), nearest);
+    chosen.level = std::min(chosen.level, model.level_for_error(error));
+  }
+  chosen.pixel_error = scale.pixels_of(model.error(chosen.level), nearest);
+  return chosen;
+}
 
 }  // namespace varifold::cli

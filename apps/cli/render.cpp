@@ -3,7 +3,6 @@
 #include <apps/cli/input.h>
 #include <apps/cli/level_options.h>
 #include <apps/cli/picture.h>
-#include <varifold/models/pm/instance.h>
 #include <varifold/render/mesh_draw_list.h>
 #include <algorithm>
 #include <memory>
@@ -36,6 +35,7 @@ ColorMode color_mode(const std::string& name, const TriangleMesh& mesh) {
   if (name == "material") return ColorMode::kMaterial;
   if (name == "vertex") return ColorMode::kVertexColor;
   if (name == "level") return ColorMode::kLevel;
+  if (name == "strip") return ColorMode::kStrip;
   return automatic_color(mesh);
 }
 
@@ -77,26 +77,35 @@ CommandResult render_scene(const RenderCommand& command, const Scene& scene, Rep
 CommandResult render_mesh(const RenderCommand& command, const std::filesystem::path& input,
                           Report& report) {
   if (!command.level.empty()) wrong_usage(command.input + ": a LEVEL needs a model");
-  if (command.color == "level") wrong_usage(command.input + ": --color level needs a model");
+  if (command.color == "level" || command.color == "strip")
+    wrong_usage(command.input + ": --color " + command.color + " needs a model");
   auto imported = read_surface(input);
   if (!imported) return tl::unexpected(imported.error());
   const TriangleMesh mesh = without_unused_vertices(imported->mesh);
   return render_scene(command, {MeshDrawList(mesh).list(), &mesh, mesh.triangle_count()}, report);
 }
 
+template <class Model>
+CommandResult render_level(const RenderCommand& command, const std::shared_ptr<const Model>& model,
+                           Report& report) {
+  const TriangleMesh& full = model->attributes();
+  const Camera camera = make_camera(command.view, full.positions);
+  const ChosenLevel chosen = choose_level(*model, command.level, &camera);
+  InstanceOf<Model> instance(model);
+  instance.go_to_level(chosen.level);
+  report.text("kind", "kind", ModelKind<Model>::kName);
+  report.count("level", "level", chosen.level);
+  report.length("error", "error", model->error(chosen.level));
+  report.length("pixel_error", "error in pixels", chosen.pixel_error);
+  return render_scene(command, {instance.draw_list(), &full, model->triangle_count(chosen.level)},
+                      report);
+}
+
 CommandResult render_model(const RenderCommand& command, const std::filesystem::path& input,
                            Report& report) {
-  const auto model = read_model(input);
-  if (!model) return tl::unexpected(model.error());
-  const TriangleMesh& full = (*model)->data().mesh;
-  const Camera camera = make_camera(command.view, full.positions);
-  const ChosenLevel chosen = choose_level(**model, command.level, &camera);
-  ProgressiveMeshInstance instance(*model);
-  instance.go_to_level(chosen.level);
-  report.count("level", "level", chosen.level);
-  report.length("error", "error", (*model)->error(chosen.level));
-  report.length("pixel_error", "error in pixels", chosen.pixel_error);
-  return render_scene(command, {instance.draw_list(), &full, instance.triangle_count()}, report);
+  const auto any = read_any_model(input);
+  if (!any) return tl::unexpected(any.error());
+  return std::visit([&](const auto& model) { return render_level(command, model, report); }, *any);
 }
 
 CommandResult run_render(const RenderCommand& command) {
@@ -131,8 +140,8 @@ void add_render(CLI::App& app, CommandRunner& runner) {
       ->check(CLI::Range(0.1, 100.0))
       ->capture_default_str()
       ->type_name("W");
-  command->add_option("--color", options->color, "auto, plain, material, vertex or level")
-      ->check(CLI::IsMember({"auto", "plain", "material", "vertex", "level"}))
+  command->add_option("--color", options->color, "auto, plain, material, vertex, level or strip")
+      ->check(CLI::IsMember({"auto", "plain", "material", "vertex", "level", "strip"}))
       ->capture_default_str()
       ->type_name("KIND");
   command->add_flag("--cull", options->cull, "Leave out what is seen from behind (else red)");

@@ -97,7 +97,8 @@ TEST_F(Commands, BenchInThreeWays) {
   make_model("m.ply", "m.vfm");
   for (const char* test : {"linear", "exponential", "random"}) {
     const json told = run_json(
-        {"bench", path("m.vfm"), path("m.vfm"), "--test", test, "--steps", "40"}, {"results"});
+        {"bench", path("m.vfm"), path("m.vfm"), "--test", test, "--steps", "40", "--draw", "none"},
+        {"results"});
     ASSERT_EQ(told["results"].size(), 2u);
     const json& result = told["results"][0];
     for (const char* key :

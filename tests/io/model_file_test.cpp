@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <tests/support/greedy_strips.h>
 #include <tests/support/meshes.h>
 #include <tests/support/test_files.h>
 #include <varifold/base/bytes.h>
@@ -8,9 +9,12 @@
 #include <varifold/io/mapped_file.h>
 #include <varifold/io/model_file.h>
 #include <varifold/io/output_file.h>
+#include <varifold/models/lodstrips/build.h>
+#include <varifold/models/mts/build.h>
 #include <varifold/models/pm/build.h>
 #include <varifold/models/pm/instance.h>
 #include <varifold/models/pm/stream_reader.h>
+#include <varifold/models/strips/build.h>
 #include <varifold/simplify/simplify.h>
 #include <algorithm>
 
@@ -148,6 +152,89 @@ TEST(ModelFile, RefinesWhileItComesThroughAPipe) {
   ASSERT_TRUE(container.finish());
   EXPECT_EQ(last_level, model.finest_level());
   EXPECT_GT(steps, 5u);
+}
+
+template <class Model>
+Model built(const DetailedMesh& detailed);
+template <>
+ProgressiveMesh built(const DetailedMesh& detailed) {
+  return build_progressive_mesh(detailed);
+}
+template <>
+MultiresolutionStrips built(const DetailedMesh& detailed) {
+  return build_mts(detailed, test::greedy_strips(detailed.mesh));
+}
+template <>
+StripFramework built(const DetailedMesh& detailed) {
+  return build_strip_framework(detailed, test::greedy_strips(detailed.mesh));
+}
+template <>
+LodStrips built(const DetailedMesh& detailed) {
+  return build_lod_strips(detailed);
+}
+
+TEST(AnyModelFile, EveryKindComesBackAsItself) {
+  const TemporaryFolder folder;
+  for (const auto& [name, mesh] : test::all_groups()) {
+    const DetailedMesh detailed = simplify(mesh)->detailed;
+    AllModels::for_each([&]<class Model>() {
+      const Model model = built<Model>(detailed);
+      const auto written = write_model(model, folder.file("m.vfm"));
+      ASSERT_TRUE(written) << written.error().message;
+      EXPECT_EQ(written->file_bytes, std::filesystem::file_size(folder.file("m.vfm")));
+      const auto read = read_any_model(folder.file("m.vfm"));
+      ASSERT_TRUE(read) << name << ": " << read.error().message;
+      EXPECT_EQ(kind_name(*read), ModelKind<Model>::kName);
+      const auto* same = std::get_if<std::shared_ptr<const Model>>(&*read);
+      ASSERT_TRUE(same) << name;
+      EXPECT_EQ(ModelKind<Model>::encode(**same), ModelKind<Model>::encode(model)) << name;
+    });
+  }
+}
+
+TEST(AnyModelFile, ZstdOnlyWhereItPays) {
+  const TemporaryFolder folder;
+  const DetailedMesh detailed = simplify(test::icosphere(2000))->detailed;
+  const MultiresolutionStrips model = built<MultiresolutionStrips>(detailed);
+  const auto packed = write_model(model, folder.file("a.vfm"));
+  const auto plain = write_model(model, folder.file("b.vfm"), false);
+  ASSERT_TRUE(packed && plain);
+  EXPECT_EQ(packed->stream_bytes, plain->stream_bytes);
+  EXPECT_LT(packed->file_bytes, plain->file_bytes * 3 / 5);
+  EXPECT_TRUE(read_any_model(folder.file("b.vfm")));
+}
+
+TEST(AnyModelFile, UnknownKindsNameTheKnownOnes) {
+  const TemporaryFolder folder;
+  const auto file = encode_container(fourcc("nope"), {});
+  ASSERT_TRUE(write_file(folder.file("other.vfm"), *file));
+  const auto read = read_any_model(folder.file("other.vfm"));
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().kind, ErrorKind::kUnsupported);
+  EXPECT_EQ(read.error().message.find('\n'), std::string::npos);
+  for (const char* part : {"other.vfm", "nope", "pm", "mts"})
+    EXPECT_NE(read.error().message.find(part), std::string::npos) << read.error().message;
+}
+
+TEST(AnyModelFile, EveryTruncationAndBitOfEveryKindIsFound) {
+  const TemporaryFolder folder;
+  const DetailedMesh detailed = simplify(test::octahedron())->detailed;
+  AllModels::for_each([&]<class Model>() {
+    ASSERT_TRUE(write_model(built<Model>(detailed), folder.file("m.vfm")));
+    const std::vector<std::byte> whole = file_bytes(folder.file("m.vfm"));
+    const auto is_refused = [&](std::span<const std::byte> bytes) {
+      EXPECT_TRUE(write_file(folder.file("bad.vfm"), bytes));
+      const auto model = read_any_model(folder.file("bad.vfm"));
+      return !model && model.error().message.find("bad.vfm: ") != std::string::npos;
+    };
+    for (std::size_t size = 0; size < whole.size(); size += 3)
+      EXPECT_TRUE(is_refused(std::span(whole).first(size))) << ModelKind<Model>::kName << size;
+    for (std::size_t bit = 0; bit < 8 * whole.size(); bit += 13) {
+      std::vector<std::byte> damaged = whole;
+      damaged[bit / 8] ^= std::byte{1} << static_cast<int>(bit % 8);
+      EXPECT_TRUE(is_refused(damaged)) << ModelKind<Model>::kName << bit;
+    }
+  });
 }
 
 }  // namespace

@@ -1,13 +1,18 @@
 // A checker is worth what it finds: sound models pass, planted faults are named.
 #include <gtest/gtest.h>
 
+#include <tests/models/level_checks.h>
 #include <tests/support/greedy_strips.h>
 #include <tests/support/meshes.h>
+#include <varifold/base/random.h>
+#include <varifold/io/any_model.h>
 #include <varifold/measure/check_model.h>
 #include <varifold/mesh/generators.h>
+#include <varifold/models/lodstrips/build.h>
 #include <varifold/models/mts/build.h>
 #include <varifold/models/mts/instance.h>
 #include <varifold/models/pm/build.h>
+#include <varifold/models/strips/build.h>
 #include <varifold/simplify/simplify.h>
 #include <algorithm>
 #include <functional>
@@ -268,6 +273,67 @@ TEST(CheckModelMts, FindsAStripThatIsDrawnTwice) {
     ++data.first_strip.back();
   });
   EXPECT_TRUE(has(faults, "wrong_count")) << listed(faults);
+}
+
+TEST(CheckModelLodStrips, AllGroupsAreSound) {
+  for (const auto& [name, mesh] : test::all_groups()) {
+    const auto check = check_model<LodStripsInstance>(
+        std::make_shared<const LodStrips>(build_lod_strips(simplify(mesh)->detailed)));
+    ASSERT_TRUE(check);
+    EXPECT_TRUE(is_sound(check->faults)) << name << ": " << listed(check->faults);
+  }
+}
+
+TEST(CheckModelStrips, AllGroupsAreSound) {
+  for (const auto& [name, mesh] : test::all_groups()) {
+    const DetailedMesh detailed = simplify(mesh)->detailed;
+    const auto check = check_model<StripFrameworkInstance>(std::make_shared<const StripFramework>(
+        build_strip_framework(detailed, test::greedy_strips(detailed.mesh))));
+    ASSERT_TRUE(check);
+    EXPECT_TRUE(is_sound(check->faults)) << name << ": " << listed(check->faults);
+  }
+}
+
+// Damage that a decoder lets pass and that changes what some level draws: the check sees it, but
+// where the full level changes in a way that all levels follow, as if the mesh had been another.
+template <class Model>
+void expect_most_damage_found(const Model& model, std::uint64_t seed) {
+  using Kind = ModelKind<Model>;
+  const std::vector<std::byte> good = Kind::encode(model);
+  InstanceOf<Model> original(std::make_shared<const Model>(model));
+  Random random(seed);
+  int changed = 0, found = 0;
+  for (int i = 0; i < 3000 && changed < 150; ++i) {
+    std::vector<std::byte> bytes = good;
+    const auto at = random.below(static_cast<std::uint32_t>(bytes.size()));
+    bytes[at] ^= std::byte{1} << static_cast<int>(random.below(8));
+    auto decoded = Kind::decode(bytes);
+    if (!decoded || decoded->finest_level() != model.finest_level()) continue;
+    const auto damaged = std::make_shared<const Model>(std::move(*decoded));
+    InstanceOf<Model> instance(damaged);
+    bool is_changed = false;
+    for (std::uint32_t k = 0; k <= model.finest_level() && !is_changed; ++k) {
+      instance.go_to_level(k);
+      original.go_to_level(k);
+      is_changed = test::triangle_set(instance.extract()) != test::triangle_set(original.extract());
+    }
+    if (!is_changed) continue;
+    ++changed;
+    const auto check = check_model<InstanceOf<Model>>(damaged);
+    ASSERT_TRUE(check);
+    if (!is_sound(check->faults)) ++found;
+  }
+  ::testing::Test::RecordProperty(Kind::kName,
+                                  std::to_string(found) + " of " + std::to_string(changed));
+  EXPECT_GE(found * 10, changed * 8) << Kind::kName << " " << changed;
+}
+
+TEST(CheckModel, FindsMostDamageThatDecodersLetPass) {
+  const DetailedMesh detailed = simplify(test::icosphere(80))->detailed;
+  expect_most_damage_found(build_progressive_mesh(detailed), 1);
+  expect_most_damage_found(build_mts(detailed, test::greedy_strips(detailed.mesh)), 2);
+  expect_most_damage_found(build_lod_strips(detailed), 3);
+  expect_most_damage_found(build_strip_framework(detailed, test::greedy_strips(detailed.mesh)), 4);
 }
 
 }  // namespace

@@ -23,5 +23,19 @@ TEST(Colors, LevelsGoFromBlueToOrangeWithoutJumps) {
   }
 }
 
+TEST(Colors, StripsDifferFromTheirNeighboursAndAreNotRed) {
+  int similar = 0;
+  for (std::uint32_t strip = 0; strip < 10000; ++strip) {
+    const Vec3 color = strip_color(strip);
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_GE(color[c], 0);
+      EXPECT_LE(color[c], 1);
+    }
+    EXPECT_FALSE(color.x > color.y + 0.22f && color.x > color.z + 0.22f) << strip;
+    if (glm::length(color - strip_color(strip + 1)) < 0.1f) ++similar;
+  }
+  EXPECT_LT(similar, 300);
+}
+
 }  // namespace
 }  // namespace varifold

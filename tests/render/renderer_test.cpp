@@ -2,6 +2,7 @@
 
 #include <tests/render/scenes.h>
 #include <varifold/mesh/generators.h>
+#include <varifold/render/colors.h>
 #include <varifold/render/image_difference.h>
 #include <varifold/render/mesh_draw_list.h>
 #include <cmath>
@@ -196,6 +197,65 @@ TEST_F(RendererTest, ListsMayShrinkAndGrow) {
   ASSERT_TRUE(renderer().begin(camera, plain_background()));
   ASSERT_TRUE(renderer().draw(*gpu_mesh, whole));
   EXPECT_TRUE(*renderer().read_image() == expected);
+}
+
+TEST_F(RendererTest, ACallForEachStripDrawsTheSamePicture) {
+  const test::StripBand band = test::strip_band();
+  for (const ColorMode mode : {ColorMode::kPlain, ColorMode::kLevel}) {
+    DrawStyle style;
+    style.color_mode = mode;
+    const auto together = renderer().render(band.list(), camera, style, plain_background());
+    style.call_per_strip = true;
+    const auto apart = renderer().render(band.list(), camera, style, plain_background());
+    ASSERT_TRUE(together && apart);
+    EXPECT_TRUE(*together == *apart);
+  }
+}
+
+TEST_F(RendererTest, EveryStripHasItsColor) {
+  const test::StripBand band = test::strip_band();
+  // The same strips one by one, each drawn plain in the colour of its number.
+  std::vector<DrawRange> strips;
+  for (const DrawRange& range : band.ranges) {
+    std::uint32_t first = range.first_index;
+    for (std::uint32_t i = first; i <= range.first_index + range.index_count; ++i) {
+      const bool ends = i == range.first_index + range.index_count;
+      if (!ends && band.indices[i] != kStripRestart) continue;
+      strips.push_back({first, i - first, Primitive::kStrips, 0, 1});
+      first = i + 1;
+    }
+  }
+  ASSERT_EQ(strips.size(), 6u);
+  const auto gpu_mesh = renderer().add(band.list());
+  ASSERT_TRUE(gpu_mesh && renderer().begin(camera, plain_background()));
+  for (std::uint32_t s = 0; s < strips.size(); ++s) {
+    DrawList one = band.list();
+    one.ranges = {&strips[s], 1};
+    DrawStyle style;
+    style.plain_color = strip_color(s);
+    ASSERT_TRUE(renderer().draw(*gpu_mesh, one, style));
+  }
+  const auto expected = renderer().read_image();
+
+  DrawStyle style;
+  style.color_mode = ColorMode::kStrip;
+  // Ranges and restarts both divide strips; restarts in a row divide them no more than one.
+  DrawList list = band.list();
+  const auto by_range = renderer().render(list, camera, style, plain_background());
+  ASSERT_TRUE(expected && by_range);
+  EXPECT_TRUE(*by_range == *expected);
+  std::vector<std::uint32_t> joined;
+  for (const DrawRange& strip : strips) {
+    if (!joined.empty()) joined.insert(joined.end(), 3, kStripRestart);
+    joined.insert(joined.end(), band.indices.begin() + strip.first_index,
+                  band.indices.begin() + strip.first_index + strip.index_count);
+  }
+  const DrawRange whole{0, static_cast<std::uint32_t>(joined.size()), Primitive::kStrips, 0, 1};
+  list.indices = joined;
+  list.ranges = {&whole, 1};
+  const auto by_restart = renderer().render(list, camera, style, plain_background());
+  ASSERT_TRUE(by_restart);
+  EXPECT_TRUE(*by_restart == *expected);
 }
 
 TEST_F(RendererTest, SeveralMeshesWithPlacementsShareAPicture) {

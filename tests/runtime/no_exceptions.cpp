@@ -3,6 +3,8 @@
 #include <varifold/models/pm/encoding.h>
 #include <varifold/models/pm/geomorph.h>
 #include <varifold/models/pm/instance.h>
+#include <varifold/models/strips/encoding.h>
+#include <varifold/models/strips/instance.h>
 #include <cstdio>
 #include <memory>
 #include <utility>
@@ -26,6 +28,44 @@ varifold::ProgressiveMeshData split_triangle() {
   return data;
 }
 
+// The same in strips: one of the triangles 3 0 1 and 3 1 2, and one of 3 2 0.
+varifold::StripFramework strips_of_triangle() {
+  varifold::CollapseSequence sequence;
+  sequence.target = {varifold::kNone, varifold::kNone, varifold::kNone, 0};
+  sequence.vertices = {3, 4};
+  sequence.triangles = {1, 3};
+  sequence.error = {0.5f, 0};
+  varifold::StripFrameworkData data;
+  data.mesh.positions = split_triangle().mesh.positions;
+  data.levels = varifold::LevelTable(sequence);
+  data.dependencies = {varifold::kNone};
+  data.radius = {3};
+  data.cone = {varifold::kWideConeCode};
+  data.error_codes = {0x3f00};
+  varifold::TriangleStrips strips;
+  strips.indices = {0, 1, 3, 2};
+  strips.end_strip(0);
+  strips.indices.insert(strips.indices.end(), {3, 2, 0});
+  strips.end_strip(0);
+  return {std::move(data), std::move(strips)};
+}
+
+bool strips_are_right() {
+  const auto decoded =
+      varifold::decode_strip_framework(varifold::encode_strip_framework(strips_of_triangle()));
+  if (!decoded || varifold::decode_strip_framework({})) return false;
+  const auto model = std::make_shared<const varifold::StripFramework>(*decoded);
+  varifold::StripFrameworkInstance instance(model);
+  const bool coarse = varifold::submitted_triangles(instance.draw_list()) == 1;
+  instance.go_to_level(1);
+  const bool fine = varifold::submitted_triangles(instance.draw_list()) == 3;
+  varifold::RefineCriteria criteria;
+  instance.adapt(criteria);
+  const bool coarsened = instance.level() == 0 && instance.extract().triangle_count() == 1;
+  criteria.sphere = varifold::Sphere{{0, 1, 0}, 1};
+  return coarse && fine && coarsened && instance.adapt(criteria).triangles == 3;
+}
+
 }  // namespace
 
 int main() {
@@ -42,7 +82,7 @@ int main() {
   varifold::Geomorph geomorph(*model, 0, 1);
   geomorph.blend(0);
   const bool morphs = geomorph.mesh().positions[3] == varifold::Vec3(0, 0, 0);
-  if (!refined || !undone || !survives || !refused || !morphs) {
+  if (!refined || !undone || !survives || !refused || !morphs || !strips_are_right()) {
     std::puts("no exceptions: a level is wrong");
     return 1;
   }

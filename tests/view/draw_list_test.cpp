@@ -33,6 +33,11 @@ TEST(DrawList, CountsTrianglesOfListsAndStrips) {
   list.ranges = ranges;
   EXPECT_EQ(submitted_triangles(list), 5u);
   EXPECT_EQ(submitted_triangles(DrawList{}), 0u);
+  const SubmittedIndices sent = submitted_indices(list);
+  EXPECT_EQ(sent.indices, 19u);
+  EXPECT_EQ(sent.vertices, 16u);
+  EXPECT_EQ(sent.strips, 4u);
+  EXPECT_EQ(submitted_indices(DrawList{}).indices, 0u);
 }
 
 }  // namespace

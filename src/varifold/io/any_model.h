@@ -4,10 +4,13 @@
 
 #include <varifold/base/result.h>
 #include <varifold/io/container_table.h>
+#include <varifold/models/lodstrips/lod_strips.h>
 #include <varifold/models/mts/encoding.h>
 #include <varifold/models/mts/instance.h>
 #include <varifold/models/pm/encoding.h>
 #include <varifold/models/pm/instance.h>
+#include <varifold/models/strips/encoding.h>
+#include <varifold/models/strips/instance.h>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -54,6 +57,40 @@ struct ModelKind<MultiresolutionStrips> {
   }
 };
 
+template <>
+struct ModelKind<LodStrips> {
+  using Instance = LodStripsInstance;
+  static constexpr const char* kName = "lodstrips";
+  static constexpr std::uint32_t kFourcc = fourcc("lods");
+  static constexpr std::uint32_t kChunk = fourcc("DATA");
+  static constexpr bool kDense = false;
+  static Result<LodStrips> decode(std::span<const std::byte> bytes) {
+    return decode_lod_strips(bytes);
+  }
+  static std::vector<std::byte> encode(const LodStrips& model) { return encode_lod_strips(model); }
+};
+
+template <>
+struct ModelKind<StripFramework> {
+  using Instance = StripFrameworkInstance;
+  static constexpr const char* kName = "strips";
+  static constexpr std::uint32_t kFourcc = fourcc("strp");
+  static constexpr std::uint32_t kChunk = fourcc("DATA");
+  static constexpr bool kDense = false;
+  static Result<StripFramework> decode(std::span<const std::byte> bytes) {
+    return decode_strip_framework(bytes);
+  }
+  static std::vector<std::byte> encode(const StripFramework& model) {
+    return encode_strip_framework(model);
+  }
+  /// Full detail on the side of a plane that its normal points to, the base elsewhere.
+  static void adapt_to_plane(Instance& instance, const Vec3& point, const Vec3& normal) {
+    RefineCriteria criteria;
+    criteria.plane = Plane{normal, -glm::dot(normal, point)};
+    instance.adapt(criteria);
+  }
+};
+
 template <class... Models>
 struct ModelList {
   using Any = std::variant<std::shared_ptr<const Models>...>;
@@ -63,7 +100,7 @@ struct ModelList {
     (visit.template operator()<Models>(), ...);
   }
 };
-using AllModels = ModelList<ProgressiveMesh, MultiresolutionStrips>;
+using AllModels = ModelList<ProgressiveMesh, StripFramework, LodStrips, MultiresolutionStrips>;
 
 /// One immutable model of any kind; std::visit with a generic lambda, whose parameter is a
 /// std::shared_ptr<const Model>. All kinds satisfy UniformModel, their instances UniformInstance.

@@ -1,8 +1,10 @@
 #include <varifold/measure/check_model.h>
 #include <varifold/measure/model_checker.h>
 #include <varifold/models/common/uniform_model.h>
+#include <varifold/models/lodstrips/lod_strips.h>
 #include <varifold/models/mts/instance.h>
 #include <varifold/models/pm/instance.h>
+#include <varifold/models/strips/instance.h>
 
 namespace varifold {
 
@@ -17,6 +19,10 @@ Result<ModelCheck> check_model(const std::shared_ptr<const CheckedModel<Instance
 // One line for each kind of model.
 template Result<ModelCheck> check_model<ProgressiveMeshInstance>(
     const std::shared_ptr<const ProgressiveMesh>&, const ModelCheckOptions&);
+template Result<ModelCheck> check_model<StripFrameworkInstance>(
+    const std::shared_ptr<const StripFramework>&, const ModelCheckOptions&);
+template Result<ModelCheck> check_model<LodStripsInstance>(const std::shared_ptr<const LodStrips>&,
+                                                           const ModelCheckOptions&);
 template Result<ModelCheck> check_model<MultiresolutionStripsInstance>(
     const std::shared_ptr<const MultiresolutionStrips>&, const ModelCheckOptions&);
 

@@ -9,6 +9,7 @@
 #include <varifold/mesh/normals.h>
 #include <varifold/mesh/topology.h>
 #include <varifold/mesh/weld.h>
+#include <varifold/models/common/uniform_model.h>
 #include <varifold/models/pm/instance.h>
 #include <algorithm>
 #include <array>
@@ -200,7 +201,7 @@ class ModelChecker {
 
   // A spread of levels by the logarithm of their number: the coarse ones have the large errors.
   bool check_distances() {
-    if (!model_->error_is_measured() || full_mesh_.indices.empty()) return true;
+    if (!error_is_measured(*model_) || full_mesh_.indices.empty()) return true;
     const std::uint32_t finest = model_->finest_level();
     std::vector<std::uint32_t> chosen{0};
     for (std::uint32_t i = 0; i < options_.distance_levels; ++i)

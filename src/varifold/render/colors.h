@@ -1,4 +1,4 @@
-// Colour spaces, and the ramp that shows levels of detail.
+// Colour spaces, the ramp that shows levels of detail, and colours that tell strips apart.
 #pragma once
 
 #include <varifold/base/math.h>
@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 namespace varifold {
 
@@ -31,6 +32,24 @@ namespace varifold {
   const auto& a = kStops[stop];
   const auto& b = kStops[stop + 1];
   return {a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1]), a[2] + part * (b[2] - a[2])};
+}
+
+/// The sRGB colour of the strip of that number: neighbouring numbers differ clearly, by hue as well
+/// as by brightness. The reds of faults are left out.
+[[nodiscard]] inline Vec3 strip_color(std::uint32_t strip) {
+  std::uint32_t hash = strip * 0x9e3779b9u;
+  hash ^= hash >> 15u;
+  hash *= 0x85ebca6bu;
+  hash ^= hash >> 13u;
+  // Hues from amber (45 degrees) round to magenta (300 degrees), as a part of the circle.
+  const float hue = (45.0f + 255.0f * static_cast<float>(hash & 0xffffu) / 65535.0f) / 360.0f;
+  const float saturation = 0.45f + 0.35f * static_cast<float>(hash >> 16u & 0xffu) / 255.0f;
+  const float value = 0.62f + 0.36f * static_cast<float>(hash >> 24u) / 255.0f;
+  const auto channel = [&](float offset) {
+    const float place = std::fmod(hue * 6.0f + offset, 6.0f);
+    return value * (1 - saturation * std::clamp(std::min(place, 4.0f - place), 0.0f, 1.0f));
+  };
+  return {channel(5), channel(3), channel(1)};
 }
 
 }  // namespace varifold

@@ -43,6 +43,7 @@ struct Renderer::Impl {
   void set_camera_uniforms(const gl::Program& program) const;
   void set_style_uniforms(const gl::Program& program, const DrawStyle& style) const;
   void draw_ranges(const gl::Program& program, const DrawList& list, const DrawStyle& style);
+  void draw_strips(const gl::Program& program, const DrawList& list, const DrawStyle& style) const;
   [[nodiscard]] Result<void> resolve();
 };
 
@@ -67,6 +68,12 @@ Vec3 linear_base_color(const DrawRange& range, const DrawStyle& style) {
   if (style.color_mode == ColorMode::kMaterial && range.material < style.material_colors.size())
     return Vec3(style.material_colors[range.material]);
   return linear_from_srgb(style.plain_color);
+}
+
+const void* offset_of(std::uint32_t index) {
+  const auto offset = std::uintptr_t{index} * sizeof(std::uint32_t);
+  // NOLINTNEXTLINE(performance-no-int-to-ptr): an offset into the buffer, says OpenGL
+  return reinterpret_cast<const void*>(offset);
 }
 
 /// OpenGL pictures start at the bottom row.
@@ -102,6 +109,26 @@ void Renderer::Impl::set_style_uniforms(const gl::Program& program, const DrawSt
                   style.wire_width * static_cast<float>(options.supersampling));
 }
 
+// A call for each strip: what stands between two restarts.
+void Renderer::Impl::draw_strips(const gl::Program& program, const DrawList& list,
+                                 const DrawStyle& style) const {
+  std::uint32_t strip = 0;
+  const bool colors = style.color_mode == ColorMode::kStrip;
+  for (const DrawRange& range : list.ranges) {
+    const bool is_strip = range.primitive == Primitive::kStrips;
+    if (!colors) gl::set_uniform(program, "base_color", linear_base_color(range, style));
+    const std::uint32_t end = range.first_index + range.index_count;
+    for (std::uint32_t first = range.first_index, last = first; first < end; first = last + 1) {
+      last = is_strip ? first : end;
+      while (last < end && list.indices[last] != kStripRestart) ++last;
+      if (last == first) continue;
+      if (colors) gl::set_uniform(program, "base_color", linear_from_srgb(strip_color(strip++)));
+      glDrawElements(is_strip ? GL_TRIANGLE_STRIP : GL_TRIANGLES,
+                     static_cast<GLsizei>(last - first), GL_UNSIGNED_INT, offset_of(first));
+    }
+  }
+}
+
 void Renderer::Impl::draw_ranges(const gl::Program& program, const DrawList& list,
                                  const DrawStyle& style) {
   for (std::size_t i = 0; i < list.ranges.size();) {
@@ -111,9 +138,7 @@ void Renderer::Impl::draw_ranges(const gl::Program& program, const DrawList& lis
     for (; i < list.ranges.size() && same_batch(first, list.ranges[i], style.color_mode); ++i) {
       const DrawRange& range = list.ranges[i];
       batch_counts.push_back(static_cast<GLsizei>(range.index_count));
-      const auto offset = std::uintptr_t{range.first_index} * sizeof(std::uint32_t);
-      // NOLINTNEXTLINE(performance-no-int-to-ptr): an offset into the buffer, says OpenGL
-      batch_offsets.push_back(reinterpret_cast<const void*>(offset));
+      batch_offsets.push_back(offset_of(range.first_index));
     }
     gl::set_uniform(program, "base_color", linear_base_color(first, style));
     glMultiDrawElements(first.primitive == Primitive::kTriangles ? GL_TRIANGLES : GL_TRIANGLE_STRIP,
@@ -248,11 +273,16 @@ Result<void> Renderer::draw(GpuMesh mesh, const DrawList& list, const DrawStyle&
   glBindVertexArray(buffers->vertex_array());
   // The value of a normal that is not there: zero asks for facets.
   glVertexAttrib3f(MeshBuffers::kNormal, 0, 0, 0);
-  impl_->draw_ranges(program, list, style);
+  if (style.color_mode == ColorMode::kStrip || style.call_per_strip)
+    impl_->draw_strips(program, list, style);
+  else
+    impl_->draw_ranges(program, list, style);
   glBindVertexArray(0);
   glDisable(GL_CULL_FACE);
   return gl::check_errors("drawing a mesh");
 }
+
+void Renderer::finish() { glFinish(); }
 
 Result<Image8> Renderer::read_image() {
   if (auto done = impl_->resolve(); !done) return tl::unexpected<Error>(std::move(done.error()));

@@ -22,6 +22,7 @@ enum class ColorMode {
   kMaterial,     ///< DrawStyle::material_colors by the material of each range
   kVertexColor,  ///< the vertex colours of the list; plain where it has none
   kLevel,        ///< level_color (colors.h) of the level of each range
+  kStrip,        ///< strip_color (colors.h), another for each strip; ranges of triangles have one
 };
 
 enum class BackFaces {
@@ -43,6 +44,9 @@ struct DrawStyle {
   bool wireframe = false;                       ///< draws the triangles' edges over the shading
   float wire_width = 1.0f;                      ///< pixels of the result
   Vec4 wire_color{0.07f, 0.09f, 0.13f, 0.60f};  ///< and opacity
+  /// One call for each strip instead of one for all ranges that look the same: to see what calls
+  /// cost. Ranges of triangles are one call each.
+  bool call_per_strip = false;
   /// Model to world. A rotation, a uniform scale without mirroring, and a translation.
   Mat4 placement{1.0f};
 };
@@ -93,6 +97,9 @@ class Renderer {
   /// Draws the ranges of a list out of the buffers of `mesh`, which must have been brought up to
   /// date with that list. Only between begin and the next begin.
   [[nodiscard]] Result<void> draw(GpuMesh mesh, const DrawList& list, const DrawStyle& style = {});
+
+  /// Returns when the device has drawn everything.
+  void finish();
 
   /// The picture as drawn so far.
   [[nodiscard]] Result<Image8> read_image();

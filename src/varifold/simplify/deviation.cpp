@@ -199,14 +199,13 @@ constexpr float kRounding = 1 + 1e-5f;
 
 }  // namespace
 
-bool measure_deviation(DetailedMesh& detailed, const DeviationOptions& options) {
-  CollapseSequence& sequence = detailed.sequence;
-  const std::uint32_t steps = sequence.step_count();
+std::vector<float> step_deviations(const DetailedMesh& detailed, const DeviationOptions& options) {
+  const std::uint32_t steps = detailed.sequence.step_count();
   const std::uint32_t shares =
       std::min(options.threads > 0 ? options.threads : hardware_threads(), 4) > 1 && steps > 10000
           ? 2
           : 1;
-  std::vector<std::vector<float>> squared(shares, std::vector<float>(steps + 1, 0));
+  std::vector<std::vector<float>> squared(shares, std::vector<float>(steps, 0));
   std::atomic<bool> cancelled{false};
   const VerticesByPlace places(detailed.mesh);
 
@@ -220,15 +219,26 @@ bool measure_deviation(DetailedMesh& detailed, const DeviationOptions& options) 
         cancelled = true;
     }
   });
-  if (cancelled) return false;
+  if (cancelled) return {};
+
+  std::vector<float> deviations(steps);
+  for (std::uint32_t level = 0; level < steps; ++level) {
+    float greatest = 0;
+    for (const auto& share : squared) greatest = std::max(greatest, share[level]);
+    deviations[level] = std::sqrt(greatest) * kRounding;
+  }
+  return deviations;
+}
+
+bool measure_deviation(DetailedMesh& detailed, const DeviationOptions& options) {
+  CollapseSequence& sequence = detailed.sequence;
+  const std::uint32_t steps = sequence.step_count();
+  const std::vector<float> deviations = step_deviations(detailed, options);
+  if (deviations.size() != steps) return false;
 
   sequence.error.assign(steps + 1, 0);
-  float greatest = 0;
-  for (std::uint32_t level = steps; level-- > 0;) {
-    for (const auto& share : squared)
-      greatest = std::max(greatest, std::sqrt(share[level]) * kRounding);
-    sequence.error[level] = greatest;
-  }
+  for (std::uint32_t level = steps; level-- > 0;)
+    sequence.error[level] = std::max(sequence.error[level + 1], deviations[level]);
   sequence.error_is_measured = true;
   return true;
 }

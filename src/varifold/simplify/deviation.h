@@ -7,6 +7,7 @@
 
 #include <varifold/base/progress.h>
 #include <varifold/simplify/collapse_sequence.h>
+#include <vector>
 
 namespace varifold {
 
@@ -27,5 +28,11 @@ struct DeviationOptions {
 ///
 /// O(n log n) expected: about 25 distances to triangles a sample. Returns false when cancelled.
 bool measure_deviation(DetailedMesh& detailed, const DeviationOptions& options);
+
+/// What that is made of: per step, how far the samples that its collapse moves are from the
+/// triangles that it leaves there; 0 where it moves none. Local, so that levels which differ from
+/// place to place have a bound too. Empty when cancelled. O(n log n) expected.
+[[nodiscard]] std::vector<float> step_deviations(const DetailedMesh& detailed,
+                                                 const DeviationOptions& options);
 
 }  // namespace varifold

@@ -67,4 +67,30 @@ struct DrawList {
   return triangles;
 }
 
+/// What all ranges send to the device.
+struct SubmittedIndices {
+  std::uint64_t indices = 0;   ///< all, restarts included
+  std::uint64_t vertices = 0;  ///< those that are no restarts
+  std::uint64_t strips = 0;    ///< runs of these in ranges of strips
+};
+/// O(indices).
+[[nodiscard]] inline SubmittedIndices submitted_indices(const DrawList& list) {
+  SubmittedIndices sum;
+  for (const DrawRange& range : list.ranges) {
+    sum.indices += range.index_count;
+    if (range.primitive == Primitive::kTriangles) {
+      sum.vertices += range.index_count;
+      continue;
+    }
+    bool in_strip = false;
+    for (const std::uint32_t index : list.indices.subspan(range.first_index, range.index_count)) {
+      const bool is_vertex = index != kStripRestart;
+      sum.vertices += is_vertex ? 1 : 0;
+      sum.strips += is_vertex && !in_strip ? 1 : 0;
+      in_strip = is_vertex;
+    }
+  }
+  return sum;
+}
+
 }  // namespace varifold

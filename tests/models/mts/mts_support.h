@@ -8,11 +8,36 @@
 #include <varifold/models/mts/build.h>
 #include <varifold/models/mts/instance.h>
 #include <varifold/simplify/simplify.h>
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace varifold::test {
+
+/// The triangles of greedy_strips() with one strip per material range, its parts joined by
+/// degenerate triangles.
+inline TriangleStrips long_strips(const TriangleMesh& mesh) {
+  const TriangleStrips strips = greedy_strips(mesh);
+  TriangleStrips joined;
+  std::uint32_t range_count = 0;
+  for (const std::uint32_t r : strips.range) range_count = std::max(range_count, r + 1);
+  for (std::uint32_t r = 0; r < range_count; ++r) {
+    const std::size_t begin = joined.indices.size();
+    for (std::uint32_t s = 0; s < strips.count(); ++s) {
+      if (strips.range[s] != r) continue;
+      const auto strip = strips.strip(s);
+      if (joined.indices.size() > begin) {
+        joined.indices.push_back(joined.indices.back());
+        if ((joined.indices.size() - begin) % 2 == 0) joined.indices.push_back(strip[0]);
+        joined.indices.push_back(strip[0]);
+      }
+      joined.indices.insert(joined.indices.end(), strip.begin(), strip.end());
+    }
+    joined.end_strip(r);
+  }
+  return joined;
+}
 
 struct NamedMts {
   std::string name;

@@ -72,7 +72,8 @@ Result<LevelTable> LevelTableCoder::take(SectionReader& section, std::uint64_t m
     if (step.vertices == 0) return section.fault("a step without a vertex");
     vertices += step.vertices;
     triangles += step.triangles;
-    if (vertices > kMost || triangles > kMost) return section.fault("the steps add up to too much");
+    if (vertices > most_vertices || triangles > kMost)
+      return section.fault("the steps add up to too much");
     table.push_step(step);
   }
   if (used != exceptions) return section.fault("there are more exceptions than steps need");

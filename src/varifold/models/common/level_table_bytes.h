@@ -4,6 +4,7 @@
 #include <varifold/models/common/level_table.h>
 #include <varifold/models/common/section_reader.h>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace varifold {

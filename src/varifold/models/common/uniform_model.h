@@ -42,4 +42,14 @@ concept UniformInstance = UniformModel<M> && std::constructible_from<I, std::sha
   { constant.bytes() } -> std::same_as<std::size_t>;
 };
 
+/// Whether the errors of the levels are measured bounds (CollapseSequence::error_is_measured),
+/// which models say themselves or by their level table.
+template <UniformModel M>
+[[nodiscard]] bool error_is_measured(const M& model) {
+  if constexpr (requires { model.error_is_measured(); })
+    return model.error_is_measured();
+  else
+    return model.levels().error_is_measured();
+}
+
 }  // namespace varifold

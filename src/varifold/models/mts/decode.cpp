@@ -106,8 +106,8 @@ class StripsReader {
     const std::uint32_t nodes = next.first_node - here.first_node;
     const std::uint32_t arcs = next.first_arc - here.first_arc;
     const std::uint32_t changes = next.first_change - here.first_change;
-    if (nodes == 0 || next.first_index - here.first_index >= nodes)
-      return "a strip's slot is larger than the strip";
+    const std::uint32_t slot = next.first_index - here.first_index;
+    if (slot == 0 || slot > nodes) return "a strip's slot is larger than the strip, or empty";
     std::uint32_t level = data_.levels.finest_level();
     for (std::uint32_t c = here.first_change; c < next.first_change; ++c) {
       if (data_.changes[c] >= level) return "a strip's changes do not fall";

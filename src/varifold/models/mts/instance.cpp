@@ -58,7 +58,7 @@ void MultiresolutionStripsInstance::walk(std::uint32_t strip) {
   const auto* first_arc = data.node_arc.data() + here.first_node;
   const auto* arcs = data.arcs.data() + here.first_arc;
   const std::uint32_t end = next.first_node - here.first_node;
-  const std::uint32_t room = next.first_index - here.first_index;
+  const std::uint32_t room = next.first_index - here.first_index - 1;
   std::uint32_t* out = indices_.data() + here.first_index;
   std::uint32_t length = 0;
   for (std::uint32_t node = 0; length < room;) {
@@ -80,10 +80,16 @@ void MultiresolutionStripsInstance::append_ranges(std::vector<DrawRange>& ranges
   const float fraction = finest > 0 ? static_cast<float>(level_) / static_cast<float>(finest) : 1;
   for (std::size_t r = 0; r + 1 < data.first_strip.size(); ++r) {
     const std::uint32_t material = data.mesh.ranges.empty() ? 0 : data.mesh.ranges[r].material;
-    for (std::uint32_t s = data.first_strip[r]; s < data.first_strip[r + 1]; ++s)
-      if (lengths_[s] > 0)
-        ranges.push_back(
-            {data.strips[s].first_index, lengths_[s], Primitive::kStrips, material, fraction});
+    std::uint32_t end = kNone;  // of the range before, of the same material
+    for (std::uint32_t s = data.first_strip[r]; s < data.first_strip[r + 1]; ++s) {
+      if (lengths_[s] == 0) continue;
+      const std::uint32_t first = data.strips[s].first_index;
+      // One restart between two strips: they are drawn together.
+      if (end == kNone || first - end > 1)
+        ranges.push_back({first, 0, Primitive::kStrips, material, fraction});
+      end = first + lengths_[s];
+      ranges.back().index_count = end - ranges.back().first_index;
+    }
   }
 }
 

@@ -11,7 +11,8 @@
 namespace varifold {
 
 /// A cursor over the levels of a model; satisfies UniformInstance. Owns an index buffer in which
-/// every strip has a slot as large as it ever gets; behind the strip, restarts fill its slot.
+/// every strip has a slot as large as it ever gets, and one more; restarts fill it behind the
+/// strip.
 class MultiresolutionStripsInstance {
  public:
   /// Begins at level 0. O(size of the model).
@@ -27,8 +28,9 @@ class MultiresolutionStripsInstance {
   /// buffers depend on the level alone, not on the way to it.
   void go_to_level(std::uint32_t level);
 
-  /// One range per strip that draws anything, in the order of the materials; what changed since the
-  /// last call of this function. Valid until the next go_to_level(). O(strips); allocates nothing.
+  /// The strips in the order of the materials; those with one restart between them are one range.
+  /// What changed since the last call of this function. Valid until the next go_to_level().
+  /// O(strips); allocates nothing.
   [[nodiscard]] DrawList draw_list();
 
   [[nodiscard]] const std::vector<std::uint32_t>& indices() const { return indices_; }

@@ -32,7 +32,8 @@ struct MultiresolutionStripsData {
     std::uint32_t first_node = 0;
     std::uint32_t first_arc = 0;
     std::uint32_t first_change = 0;
-    std::uint32_t first_index = 0;  ///< its slot in the index buffer: as large as it ever gets
+    /// Its slot in the index buffer: as large as it ever gets, and a restart.
+    std::uint32_t first_index = 0;
   };
 
   /// Vertex attributes at full detail, materials and images; no indices. `mesh.ranges` names the

@@ -125,7 +125,7 @@ bool StripHistory::append_to(MultiresolutionStripsData& data) const {
   data.strips.push_back({static_cast<std::uint32_t>(data.node_vertex.size()),
                          static_cast<std::uint32_t>(data.arcs.size()),
                          static_cast<std::uint32_t>(data.changes.size()),
-                         data.strips.back().first_index + longest_});
+                         data.strips.back().first_index + longest_ + 1});
   return true;
 }
 

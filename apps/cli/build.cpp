@@ -1,0 +1,55 @@
+// varifold build: a mesh becomes a model with levels of detail.
+#include <apps/cli/build_common.h>
+
+namespace varifold::cli {
+
+void add_build_options(CLI::App& command, BuildOptions& options) {
+  command.add_option("mesh", options.input, "The mesh file")->required()->type_name("MESH");
+  command.add_option("-o,--output", options.output, "The model file, .vfm")
+      ->required()
+      ->type_name("MODEL");
+  add_simplify_flags(command, options.flags);
+  add_prepare_options(command, options.prepare);
+  command.add_flag("--no-measure", options.no_measure,
+                   "Estimate the errors of the levels instead of measuring them");
+}
+
+Result<BuildInput> simplify_input(const BuildOptions& command) {
+  const auto path = input_path(command.input);
+  BuildInput input;
+  const Stopwatch read_watch;
+  auto imported = read_surface(path);
+  input.read_seconds = read_watch.seconds();
+  if (!imported) return tl::unexpected(std::move(imported.error()));
+  prepare_mesh(imported->mesh, command.prepare);
+  SimplifyOptions options = simplify_options(command.flags, command.common, path);
+  options.measure_error = !command.no_measure;
+  auto result = simplify(imported->mesh, options);
+  end_progress();
+  if (!result) return fail_in(path.string(), std::move(result.error()));
+  input.detailed = std::move(result->detailed);
+  input.stop = result->stop;
+  input.faults = result->faults;
+  input.simplify_seconds = result->collapse_seconds;
+  input.measure_seconds = result->measure_seconds;
+  return input;
+}
+
+void report_times(const BuildInput& input, const BuildTimes& times, Report& report) {
+  report.seconds("read_seconds", "time to read", input.read_seconds);
+  report.seconds("simplify_seconds", "to collapse", input.simplify_seconds);
+  report.seconds("measure_seconds", "to measure errors", input.measure_seconds);
+  report.seconds("model_seconds", "to build the model", times.model);
+  report.seconds("write_seconds", "to write", times.write);
+  report.seconds("seconds", "in all", times.all);
+  report.bytes("peak_rss_bytes", "memory at most", peak_rss_bytes());
+}
+
+void add_build(CLI::App& app, CommandRunner& runner) {
+  CLI::App* const build = app.add_subcommand("build", "Build a model with levels of detail");
+  build->require_subcommand(1);
+  add_build_pm(*build, runner);
+  add_build_strips(*build, runner);
+}
+
+}  // namespace varifold::cli

@@ -1,0 +1,140 @@
+// varifold build strips|lodstrips|mts: a mesh becomes a model of triangle strips.
+#include <apps/cli/build_common.h>
+#include <apps/cli/stripifier.h>
+#include <varifold/models/lodstrips/build.h>
+#include <varifold/models/mts/build.h>
+#include <varifold/models/strips/build.h>
+#include <memory>
+
+namespace varifold::cli {
+namespace {
+
+// One specialisation for each kind: what its subcommand says, the options that it alone has, and
+// how it is built.
+template <class Model>
+struct StripsBuild;
+
+template <>
+struct StripsBuild<MultiresolutionStrips> {
+  static constexpr const char* kHelp = "Multiresolution triangle strips (MTS), a baseline";
+  struct Options {
+    StripifierOptions stripifier;
+  };
+  static void add_options(CLI::App& command, Options& options) {
+    add_stripifier_options(command, options.stripifier);
+  }
+  static MultiresolutionStrips build(const DetailedMesh& detailed, const Options& options) {
+    return build_mts(detailed, make_strips(detailed, options.stripifier));
+  }
+};
+
+template <>
+struct StripsBuild<StripFramework> {
+  static constexpr const char* kHelp = "The strips framework: static strips, levels per region too";
+  struct Options {
+    StripifierOptions stripifier;
+  };
+  static void add_options(CLI::App& command, Options& options) {
+    add_stripifier_options(command, options.stripifier);
+  }
+  static StripFramework build(const DetailedMesh& detailed, const Options& options) {
+    return build_strip_framework(detailed, make_strips(detailed, options.stripifier));
+  }
+};
+
+template <>
+struct StripsBuild<LodStrips> {
+  static constexpr const char* kHelp = "LodStrips: strips changed in place, ready to be drawn";
+  struct Options {
+    std::string form = "blocks";
+    StripifierOptions stripifier;
+  };
+  static void add_options(CLI::App& command, Options& options) {
+    command
+        .add_option("--form", options.form,
+                    "blocks: strips built from coarse to fine, in blocks; grouped, thesis: strips "
+                    "of the full mesh, with the records of chapters 5 and 4 of the thesis")
+        ->check(CLI::IsMember({"blocks", "grouped", "thesis"}))
+        ->capture_default_str()
+        ->type_name("FORM");
+    options.stripifier.max_indices = kStaticStripIndices;
+    add_stripifier_options(command, options.stripifier);
+  }
+  static LodStrips build(const DetailedMesh& detailed, const Options& options) {
+    if (options.form == "blocks") return build_lod_strips(detailed);
+    const auto form = options.form == "grouped" ? LodStripsForm::kGrouped : LodStripsForm::kThesis;
+    return build_lod_strips(detailed, form, make_strips(detailed, options.stripifier));
+  }
+};
+
+// What is drawn at full detail.
+template <class Model>
+void report_strips(const std::shared_ptr<const Model>& model, Report& report) {
+  InstanceOf<Model> instance(model);
+  instance.go_to_level(model->finest_level());
+  const SubmittedIndices sent = submitted_indices(instance.draw_list());
+  const std::uint32_t triangles = model->triangle_count(model->finest_level());
+  // With a restart between any two strips.
+  const auto indices =
+      static_cast<double>(sent.vertices + std::max<std::uint64_t>(1, sent.strips) - 1);
+  report.count("strips", "strips", sent.strips);
+  report.length("indices_per_triangle", "indices a triangle", indices / std::max(1u, triangles));
+}
+
+template <class Model>
+struct StripsCommand {
+  BuildOptions build;
+  typename StripsBuild<Model>::Options own;
+};
+
+template <class Model>
+CommandResult run_build(const StripsCommand<Model>& command) {
+  const auto input = input_path(command.build.input), output = output_path(command.build.output);
+  if (command.build.flags.placement == "optimal")
+    wrong_usage("--placement optimal: strips name vertices, they do not move them; use kept");
+  if (auto writable = check_output(output, command.build.common); !writable)
+    return tl::unexpected(writable.error());
+  const Stopwatch watch;
+  auto simplified = simplify_input(command.build);
+  if (!simplified) return tl::unexpected(simplified.error());
+  BuildTimes times;
+  const Stopwatch model_watch;
+  const auto model =
+      std::make_shared<const Model>(StripsBuild<Model>::build(simplified->detailed, command.own));
+  times.model = model_watch.seconds();
+  simplified->detailed = {};
+  if (auto done = check_interrupted(input); !done) return tl::unexpected(done.error());
+  const Stopwatch write_watch;
+  const auto file = write_model(*model, output);
+  if (!file) return tl::unexpected(file.error());
+  times.write = write_watch.seconds();
+
+  Report report;
+  report_model(*model, *file, simplified->faults, report);
+  report_strips(model, report);
+  report_stop(simplified->stop, input, report);
+  times.all = watch.seconds();
+  report_times(*simplified, times, report);
+  return finish(report, command.build.common, output);
+}
+
+template <class Model>
+void add_kind(CLI::App& build, CommandRunner& runner) {
+  CLI::App* const command =
+      build.add_subcommand(ModelKind<Model>::kName, StripsBuild<Model>::kHelp);
+  const auto options = std::make_shared<StripsCommand<Model>>();
+  add_build_options(*command, options->build);
+  StripsBuild<Model>::add_options(*command, options->own);
+  runner.add_common(*command, options->build.common, true);
+  runner.attach(*command, options->build.common, [options] { return run_build<Model>(*options); });
+}
+
+}  // namespace
+
+void add_build_strips(CLI::App& build, CommandRunner& runner) {
+  add_kind<StripFramework>(build, runner);
+  add_kind<LodStrips>(build, runner);
+  add_kind<MultiresolutionStrips>(build, runner);
+}
+
+}  // namespace varifold::cli
