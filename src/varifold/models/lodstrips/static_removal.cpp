@@ -100,8 +100,8 @@ class StripCutter {
   TriangleStrips& cut_;
 };
 
-// The triangles of a strip that have three different corners among those that begin at the slots
-// [low, high); `at(i)` is slot i.
+// The triangles with three different corners near a pair: before at most four, two of interest.
+// `at(i)` is slot i.
 template <class Slot>
 struct Window {
   std::array<Corners, 4> triangles;
