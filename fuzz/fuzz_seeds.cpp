@@ -1,4 +1,5 @@
 // fuzz_seeds FOLDER: writes a few small files of every format, one folder per target.
+#include <tests/support/greedy_strips.h>
 #include <varifold/base/bytes.h>
 #include <varifold/io/container.h>
 #include <varifold/io/gltf.h>
@@ -8,6 +9,8 @@
 #include <varifold/mesh/generators.h>
 #include <varifold/models/pm/build.h>
 #include <varifold/models/pm/encoding.h>
+#include <varifold/models/strips/build.h>
+#include <varifold/models/strips/encoding.h>
 #include <varifold/simplify/simplify.h>
 #include <cstdio>
 #include <filesystem>
@@ -98,6 +101,12 @@ bool put_progressive_meshes(const std::filesystem::path& folder) {
   return put(folder / "all", progressive(with_everything(), Placement::kKept, 0)) && done;
 }
 
+std::vector<std::byte> strips(const TriangleMesh& mesh) {
+  const DetailedMesh detailed = simplify(mesh)->detailed;
+  return encode_strip_framework(
+      build_strip_framework(detailed, test::greedy_strips(detailed.mesh, test::Joins::kSome)));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -131,5 +140,9 @@ int main(int argc, char** argv) {
   done = put(folder / "container" / "three", *encode_container(fourcc("KIND"), chunks)) && done;
   done = put(folder / "container" / "none", *encode_container(fourcc("KIND"), {})) && done;
   done = put_progressive_meshes(folder / "progressive_mesh") && done;
+  done = put(folder / "strips" / "all", strips(with_everything())) && done;
+  done = put(folder / "strips" / "seams", strips(seamed_sphere({.triangles = 80}))) && done;
+  done =
+      put(folder / "strips" / "planet", strips(planet({{.triangles = 80}, 0.12f, false}))) && done;
   return done ? 0 : 1;
 }
