@@ -1,17 +1,19 @@
 // fuzz_seeds FOLDER: writes a few small files of every format, one folder per target.
-#include <tests/support/greedy_strips.h>
 #include <varifold/base/bytes.h>
+#include <varifold/io/any_model.h>
 #include <varifold/io/container.h>
 #include <varifold/io/gltf.h>
 #include <varifold/io/obj.h>
 #include <varifold/io/output_file.h>
 #include <varifold/io/ply.h>
 #include <varifold/mesh/generators.h>
+#include <varifold/models/lodstrips/build.h>
+#include <varifold/models/mts/build.h>
 #include <varifold/models/pm/build.h>
 #include <varifold/models/pm/encoding.h>
 #include <varifold/models/strips/build.h>
-#include <varifold/models/strips/encoding.h>
 #include <varifold/simplify/simplify.h>
+#include <varifold/strip/stripify.h>
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -101,10 +103,25 @@ bool put_progressive_meshes(const std::filesystem::path& folder) {
   return put(folder / "all", progressive(with_everything(), Placement::kKept, 0)) && done;
 }
 
-std::vector<std::byte> strips(const TriangleMesh& mesh) {
-  const DetailedMesh detailed = simplify(mesh)->detailed;
-  return encode_strip_framework(
-      build_strip_framework(detailed, test::greedy_strips(detailed.mesh, test::Joins::kSome)));
+// Small, so that a fuzzer gets far in a second.
+bool put_strips(const std::filesystem::path& folder) {
+  bool done = true;
+  for (const auto& [name, mesh] :
+       {std::pair("sphere", seamed_sphere({.triangles = 60})), std::pair("all", with_everything()),
+        std::pair("planet", planet({{.triangles = 80}, 0.12f, false})),
+        std::pair("plane", plane({.triangles = 18}))}) {
+    const DetailedMesh detailed = simplify(mesh)->detailed;
+    const TriangleStrips strips = stripify(detailed.mesh);
+    done = put(folder / "mts" / name, encode_mts(build_mts(detailed, strips))) && done;
+    for (const LodStripsForm form : kLodStripsForms)
+      done = put(folder / "lodstrips" / (name + std::string("_") + std::string(form_name(form))),
+                 encode_lod_strips(build_lod_strips(detailed, form, strips))) &&
+             done;
+    done = put(folder / "strips" / name,
+               encode_strip_framework(build_strip_framework(detailed, strips))) &&
+           done;
+  }
+  return done;
 }
 
 }  // namespace
@@ -140,9 +157,6 @@ int main(int argc, char** argv) {
   done = put(folder / "container" / "three", *encode_container(fourcc("KIND"), chunks)) && done;
   done = put(folder / "container" / "none", *encode_container(fourcc("KIND"), {})) && done;
   done = put_progressive_meshes(folder / "progressive_mesh") && done;
-  done = put(folder / "strips" / "all", strips(with_everything())) && done;
-  done = put(folder / "strips" / "seams", strips(seamed_sphere({.triangles = 80}))) && done;
-  done =
-      put(folder / "strips" / "planet", strips(planet({{.triangles = 80}, 0.12f, false}))) && done;
+  done = put_strips(folder) && done;
   return done ? 0 : 1;
 }

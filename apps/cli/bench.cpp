@@ -162,6 +162,8 @@ class BenchWalk {
 
   Json result() const {
     const double total = extraction_ + drawing_;
+    const double per_second = static_cast<double>(collapses_) / std::max(extraction_, 1e-9);
+    const bool is_plane = command_.test.name == "plane";  // whose steps are not along levels
     const double vertices = std::max(1u, model_->vertex_count(model_->finest_level()));
     return {{"kind", ModelKind<Model>::kName},
             {"test", command_.test.name},
@@ -172,8 +174,8 @@ class BenchWalk {
             {"seconds_extraction", extraction_},
             {"seconds_drawing", device_ ? Json(drawing_) : Json()},
             {"extraction_share", total > 0 ? extraction_ / total : 0},
-            {"collapses", collapses_},
-            {"collapses_per_second", static_cast<double>(collapses_) / std::max(extraction_, 1e-9)},
+            {"collapses", is_plane ? Json() : Json(collapses_)},
+            {"collapses_per_second", is_plane ? Json() : Json(per_second)},
             {"indices_submitted", indices_},
             {"model_bytes", model_->bytes()},
             {"instance_bytes", instance_.bytes()},
@@ -205,10 +207,11 @@ Result<Json> bench_model(const BenchCommand& command, const std::string& input, 
 }
 
 void add_row(const std::string& input, const Json& result, Report& report) {
-  std::string text =
-      fmt::format("{}: {:.1f} M collapses/s, {} of extraction", result["kind"].get<std::string>(),
-                  result["collapses_per_second"].get<double>() * 1e-6,
-                  format_seconds(result["seconds_extraction"].get<double>()));
+  std::string text = fmt::format("{}: {} of extraction", result["kind"].get<std::string>(),
+                                 format_seconds(result["seconds_extraction"].get<double>()));
+  if (!result["collapses_per_second"].is_null())
+    text +=
+        fmt::format(", {:.1f} M collapses/s", result["collapses_per_second"].get<double>() * 1e-6);
   if (!result["seconds_drawing"].is_null())
     text += fmt::format(", {} of drawing ({:.1f} % extraction)",
                         format_seconds(result["seconds_drawing"].get<double>()),

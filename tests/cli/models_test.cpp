@@ -163,8 +163,8 @@ TEST_P(Models, OneSampleOfOneStep) {
 
 TEST_P(Models, ThePlaneTestNeedsLevelsPerRegion) {
   (void)make_model();
-  const ToolResult result = run_tool({"bench", path("m.vfm"), "--test", "plane", "--steps", "20",
-                                      "--draw", "none", "--json"});
+  const ToolResult result = run_tool(
+      {"bench", path("m.vfm"), "--test", "plane", "--steps", "20", "--draw", "none", "--json"});
   if (kind() != "strips") {
     EXPECT_EQ(result.exit_code, 2) << result.err;
     EXPECT_NE(result.err.find(kind()), std::string::npos) << result.err;

@@ -37,7 +37,8 @@ Shown show(std::string name, Model model) {
 std::vector<Shown> all_models(const DetailedMesh& detailed) {
   const TriangleStrips strips = stripify(detailed.mesh);
   const TriangleStrips cached = stripify(detailed.mesh, {.method = StripMethod::kCacheAware});
-  return {show("pm", build_progressive_mesh(detailed)), show("mts", build_mts(detailed, strips)),
+  return {show("pm", build_progressive_mesh(detailed)),
+          show("mts", build_mts(detailed, strips)),
           show("mts of cache strips", build_mts(detailed, cached)),
           show("mts along the sequence", build_mts(detailed, stripify_along_sequence(detailed))),
           show("strips", build_strip_framework(detailed, strips)),
