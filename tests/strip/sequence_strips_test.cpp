@@ -97,7 +97,7 @@ TEST(SequenceStrips, WhatWasLearnedSavesTurns) {
     const auto count_turns = [](const SequenceStrips& strips) {
       return static_cast<std::size_t>(
           std::count_if(strips.changes().begin(), strips.changes().end(),
-                        [](const StripChange& c) { return c.kind == StripChange::kRotate; }));
+                        [](const BlockChange& c) { return c.kind == BlockChange::kRotate; }));
     };
     while (first.level() < detailed.sequence.step_count()) {
       first.split();

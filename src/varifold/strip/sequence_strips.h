@@ -20,7 +20,7 @@ namespace varifold {
 
 /// A change of one block. Every kind has an exact inverse, so a list of them can be played both
 /// ways; block and slot numbers are those at the time of the change.
-struct StripChange {
+struct BlockChange {
   enum Kind : std::uint8_t {
     kSet,        ///< slot becomes `value`, a new vertex; before it had the target of that vertex
     kDuplicate,  ///< the slots slot, slot + 1 are repeated after them
@@ -90,7 +90,7 @@ class SequenceStrips {
 
   /// One split, to level() + 1. Afterwards changes() tells what it did, in order.
   void split();
-  [[nodiscard]] std::span<const StripChange> changes() const { return changes_; }
+  [[nodiscard]] std::span<const BlockChange> changes() const { return changes_; }
 
   [[nodiscard]] TriangleStrips strips() const;
 
@@ -154,8 +154,8 @@ class SequenceStrips {
   bool make_room(std::uint32_t b, std::uint32_t slots);
   [[nodiscard]] std::uint32_t best_split(const Block& block) const;
 
-  void apply(const StripChange& change);
-  void split_block(const StripChange& change);
+  void apply(const BlockChange& change);
+  void split_block(const BlockChange& change);
   void new_block(std::uint32_t range);
   void set_triangle(std::uint32_t b, std::uint32_t place, std::uint32_t triangle);
   [[nodiscard]] static std::uint32_t place_of(const Block& block, std::uint32_t triangle);
@@ -177,7 +177,7 @@ class SequenceStrips {
   std::vector<std::uint32_t> range_of_;    // per triangle, where there are several ranges
   std::vector<std::uint32_t> last_block_;  // per range: where a lone triangle may go
   FirstCorners first_, learned_;
-  std::vector<StripChange> changes_;
+  std::vector<BlockChange> changes_;
   std::vector<Corner> moved_;
   std::vector<Edge> open_;
   std::vector<std::uint32_t> pieces_;    // blocks that a step has made of one

@@ -45,7 +45,7 @@ void SequenceStrips::change_block(std::uint32_t b, std::span<const Corner> corne
     } else if (make_room(p, conflict.has_face ? 2 : 4)) {
       add_piece();
     } else if (conflict.has_face) {
-      apply({StripChange::kDuplicate, static_cast<std::uint8_t>(conflict.place), 0, p});
+      apply({BlockChange::kDuplicate, static_cast<std::uint8_t>(conflict.place), 0, p});
     } else {
       cut_strip(p, conflict.place);
     }
@@ -92,7 +92,7 @@ void SequenceStrips::set_slots(std::uint32_t b, const std::uint32_t* wanted) {
     if (wanted[i] == kNone) continue;
     for (std::uint32_t slot = i; slot < i + 3; ++slot)
       if (blocks_[b].slots[slot] == sequence_.target[wanted[i]])
-        apply({StripChange::kSet, static_cast<std::uint8_t>(slot), 0, b, wanted[i]});
+        apply({BlockChange::kSet, static_cast<std::uint8_t>(slot), 0, b, wanted[i]});
   }
 }
 
@@ -125,7 +125,7 @@ void SequenceStrips::break_run(std::uint32_t b, std::uint32_t place) {
     // The first slot belongs to no other triangle: it only repeats one of the next two.
     for (const std::uint32_t vertex : {slots[1], slots[2]}) {
       if (vertex < sequence_.vertices[level_] || sequence_.target[vertex] != slots[0]) continue;
-      apply({StripChange::kSet, static_cast<std::uint8_t>(place), 0, b, vertex});
+      apply({BlockChange::kSet, static_cast<std::uint8_t>(place), 0, b, vertex});
       return;
     }
   }
@@ -142,9 +142,9 @@ void SequenceStrips::cut_strip(std::uint32_t b, std::uint32_t place) {
   for (std::uint32_t back = 2; back > 0; --back)
     if (place >= begin + back && block.triangle[place - back] != kNone) shared = 3 - back;
   const auto insert = [&](std::uint32_t slot, std::uint32_t value) {
-    apply({StripChange::kInsert, static_cast<std::uint8_t>(slot), 0, b, value});
+    apply({BlockChange::kInsert, static_cast<std::uint8_t>(slot), 0, b, value});
   };
-  if (shared == 2) apply({StripChange::kDuplicate, static_cast<std::uint8_t>(place), 0, b});
+  if (shared == 2) apply({BlockChange::kDuplicate, static_cast<std::uint8_t>(place), 0, b});
   if (shared == 1) insert(place, first);
   insert(place + shared, kStripRestart);
   if ((place - begin) % 2 == 1) insert(place + shared + 1, first);
@@ -154,8 +154,8 @@ bool SequenceStrips::make_room(std::uint32_t b, std::uint32_t slots) {
   if (blocks_[b].count + slots <= kMaxSlots) return false;
   const std::uint32_t at = best_split(blocks_[b]);
   const bool between = blocks_[b].slots[at - 1] == kStripRestart;
-  apply({StripChange::kSplit, static_cast<std::uint8_t>(at),
-         between ? StripChange::kBetween : StripChange::kInside, b});
+  apply({BlockChange::kSplit, static_cast<std::uint8_t>(at),
+         between ? BlockChange::kBetween : BlockChange::kInside, b});
   return true;
 }
 

@@ -34,10 +34,10 @@ void SequenceStrips::new_block(std::uint32_t range) {
   blocks_.back().range = range;
 }
 
-void SequenceStrips::apply(const StripChange& change) {
+void SequenceStrips::apply(const BlockChange& change) {
   changes_.push_back(change);
-  if (change.kind == StripChange::kNewBlock) return new_block(change.value);
-  if (change.kind == StripChange::kSplit) return split_block(change);
+  if (change.kind == BlockChange::kNewBlock) return new_block(change.value);
+  if (change.kind == BlockChange::kSplit) return split_block(change);
   Block& block = blocks_[change.block];
   const std::uint32_t* const begin = block.slots;
   const std::uint32_t* const end = begin + block.count;
@@ -55,19 +55,19 @@ void SequenceStrips::apply(const StripChange& change) {
     block.count += by;
   };
   switch (change.kind) {
-    case StripChange::kSet:
-    case StripChange::kAssign:
+    case BlockChange::kSet:
+    case BlockChange::kAssign:
       *slot = change.value;
       break;
-    case StripChange::kDuplicate:
+    case BlockChange::kDuplicate:
       move(2);
       std::copy_n(slot + 2, 2, slot);
       break;
-    case StripChange::kInsert:
+    case BlockChange::kInsert:
       move(1);
       *slot = change.value;
       break;
-    case StripChange::kOpen: {
+    case BlockChange::kOpen: {
       move(block.count > 0 ? 4 : 3);
       std::uint32_t* first = slot;
       if (change.slot > 0) *first++ = kStripRestart;
@@ -79,10 +79,10 @@ void SequenceStrips::apply(const StripChange& change) {
       first[place == 2 ? 1 : 2] = target_first ? change.vertex : target;
       break;
     }
-    case StripChange::kRotate:
+    case BlockChange::kRotate:
       std::rotate(slot, slot + change.detail, slot + 3);
       break;
-    case StripChange::kReverse:
+    case BlockChange::kReverse:
       std::reverse(slot, slot + change.detail);
       std::reverse(triangle, triangle + change.detail - 2);
       break;
@@ -92,7 +92,7 @@ void SequenceStrips::apply(const StripChange& change) {
   block.most = std::max(block.most, block.count);
 }
 
-void SequenceStrips::split_block(const StripChange& change) {
+void SequenceStrips::split_block(const BlockChange& change) {
   const std::uint32_t at = change.slot;
   new_block(blocks_[change.block].range);
   Block& left = blocks_[change.block];
@@ -102,7 +102,7 @@ void SequenceStrips::split_block(const StripChange& change) {
   std::fill_n(right.triangle, right.count, kNone);
   for (std::uint32_t i = 0; i < right.count; ++i)
     if (left.triangle[at + i] != kNone) set_triangle(block_count() - 1, i, left.triangle[at + i]);
-  left.count = change.detail == StripChange::kBetween ? at - 1 : at + 2;
+  left.count = change.detail == BlockChange::kBetween ? at - 1 : at + 2;
   std::fill(left.triangle + std::min(at, left.count), left.triangle + kMaxSlots, kNone);
   splits_.push_back({left.most, block_count() - 1, left.last_split});
   left.last_split = static_cast<std::uint32_t>(splits_.size() - 1);

@@ -86,35 +86,35 @@ bool SequenceStrips::place(std::uint32_t triangle, const Placement& placement) {
   std::uint32_t i = placement.place;
   switch (placement.way) {
     case Placement::kRotated:
-      apply({StripChange::kRotate, at(i), at(placement.rotation), b});
+      apply({BlockChange::kRotate, at(i), at(placement.rotation), b});
       learn_first_corner(blocks_[b].triangle[i], blocks_[b].slots[i]);
       break;
     case Placement::kTailTurn: {
       const std::uint32_t last = blocks_[b].triangle[i];
-      apply({StripChange::kInsert, at(i + 2), 0, b, blocks_[b].slots[i]});
+      apply({BlockChange::kInsert, at(i + 2), 0, b, blocks_[b].slots[i]});
       blocks_[b].triangle[i] = kNone;
       blocks_[b].triangle[++i] = last;
       break;
     }
     case Placement::kReversed: {
       const std::uint32_t length = strip_end(blocks_[b], i) - i;
-      apply({StripChange::kReverse, at(i), at(length), b});
+      apply({BlockChange::kReverse, at(i), at(length), b});
       i += length - 3;
       break;
     }
     case Placement::kHeadPair:
-      apply({StripChange::kInsert, at(i), 0, b, placement.value});
-      apply({StripChange::kInsert, at(i), 0, b, placement.value});
+      apply({BlockChange::kInsert, at(i), 0, b, placement.value});
+      apply({BlockChange::kInsert, at(i), 0, b, placement.value});
       set_triangle(b, i + 1, triangle);
       return true;
     case Placement::kPad:
-      apply({StripChange::kAssign, at(i - 1), 0, b, placement.value});
+      apply({BlockChange::kAssign, at(i - 1), 0, b, placement.value});
       set_triangle(b, i - 1, triangle);
       return true;
     default:
       break;
   }
-  apply({StripChange::kInsert, at(i + 3), 0, b, placement.value});
+  apply({BlockChange::kInsert, at(i + 3), 0, b, placement.value});
   set_triangle(b, i + 1, triangle);
   return true;
 }
@@ -138,7 +138,7 @@ std::uint32_t SequenceStrips::block_for(std::uint32_t triangle) {
   std::uint32_t& last = last_block_[range_of(triangle)];
   if (best == kNone) best = last;
   if (best == kNone) {
-    apply({StripChange::kNewBlock, 0, 0, block_count(), range_of(triangle)});
+    apply({BlockChange::kNewBlock, 0, 0, block_count(), range_of(triangle)});
     best = block_count() - 1;
   }
   make_room(best, kSlots);
@@ -160,15 +160,15 @@ void SequenceStrips::open(std::uint32_t triangle) {
       const std::uint32_t vertex = target_first ? c : a;
       if (vertex < sequence_.vertices[level_] || sequence_.target[vertex] != (target_first ? a : c))
         continue;
-      apply({StripChange::kOpen, end, static_cast<std::uint8_t>(2 * place + (target_first ? 1 : 0)),
+      apply({BlockChange::kOpen, end, static_cast<std::uint8_t>(2 * place + (target_first ? 1 : 0)),
              b, slots[place], vertex});
       set_triangle(b, blocks_[b].count - 3, triangle);
       return;
     }
   }
-  if (end > 0) apply({StripChange::kInsert, end, 0, b, kStripRestart});
+  if (end > 0) apply({BlockChange::kInsert, end, 0, b, kStripRestart});
   for (std::uint32_t c = 0; c < 3; ++c)
-    apply({StripChange::kInsert, static_cast<std::uint8_t>(blocks_[b].count), 0, b, slots[c]});
+    apply({BlockChange::kInsert, static_cast<std::uint8_t>(blocks_[b].count), 0, b, slots[c]});
   set_triangle(b, blocks_[b].count - 3, triangle);
 }
 

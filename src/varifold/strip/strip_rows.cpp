@@ -17,7 +17,6 @@ constexpr std::uint32_t kLongest = 255;  // rows are cut there
 struct Place {
   std::uint32_t exit;
   std::uint32_t turn;
-  friend bool operator==(const Place&, const Place&) = default;
 };
 
 // The edge by which the row came.

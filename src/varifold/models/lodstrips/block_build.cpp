@@ -18,11 +18,11 @@ class StepWriter {
   StepWriter(const CollapseSequence& sequence, blocks::WordFormat format)
       : sequence_(sequence), format_(format) {}
 
-  void write(std::uint32_t level, std::span<const StripChange> changes, Bytes& records) {
+  void write(std::uint32_t level, std::span<const BlockChange> changes, Bytes& records) {
     first_ = sequence_.vertices[level];
     end_ = sequence_.vertices[level + 1];
     groups_.clear();
-    for (const StripChange& change : changes) append(group_of(change), change);
+    for (const BlockChange& change : changes) append(group_of(change), change);
     for (const Group& group : groups_) write_group(group, records);
   }
 
@@ -65,12 +65,12 @@ class StepWriter {
     }
   }
 
-  static bool makes_block(const StripChange& change) {
-    return change.kind == StripChange::kSplit || change.kind == StripChange::kNewBlock;
+  static bool makes_block(const BlockChange& change) {
+    return change.kind == BlockChange::kSplit || change.kind == BlockChange::kNewBlock;
   }
 
   // Blocks do not depend on each other, but new ones are numbered in the order of the changes.
-  Group& group_of(const StripChange& change) {
+  Group& group_of(const BlockChange& change) {
     constexpr std::size_t kMostBytes = 200;
     for (std::size_t i = groups_.size(); i-- > 0;) {
       Group& group = groups_[i];
@@ -118,9 +118,9 @@ class StepWriter {
   }
 
   // A value that is copied from a slot where it stands in one.
-  static void copy_or_value(Group& group, const StripChange& change, blocks::Extended copy,
+  static void copy_or_value(Group& group, const BlockChange& change, blocks::Extended copy,
                             blocks::Extended as_value, std::uint8_t before) {
-    const bool has_copy = change.from != StripChange::kNoSlot;
+    const bool has_copy = change.from != BlockChange::kNoSlot;
     extended(group, has_copy ? copy : as_value);
     group.bytes.push_back(before);
     if (has_copy)
@@ -129,7 +129,7 @@ class StepWriter {
       value(group, change.value);
   }
 
-  void insert(Group& group, const StripChange& change) const {
+  void insert(Group& group, const BlockChange& change) const {
     if (change.value == kStripRestart) {
       extended(group, blocks::kInsertRestart);
       group.bytes.push_back(change.slot);
@@ -144,9 +144,9 @@ class StepWriter {
     if (vertex == change.value) group.bytes.push_back(code(blocks::kSet, change.slot));
   }
 
-  void append(Group& group, const StripChange& change) const {
+  void append(Group& group, const BlockChange& change) const {
     switch (change.kind) {
-      case StripChange::kSet:
+      case BlockChange::kSet:
         if (group.bytes.empty() && change.value == first_ &&
             group.sets.size() < blocks::WordFormat::kMostSets) {
           group.sets.push_back(change.slot);
@@ -155,7 +155,7 @@ class StepWriter {
         select(group, change.value);
         group.bytes.push_back(code(blocks::kSet, change.slot));
         return;
-      case StripChange::kDuplicate:
+      case BlockChange::kDuplicate:
         if (group.bytes.empty() && group.sets.empty() &&
             group.duplicates.size() < blocks::WordFormat::kMostDuplicates) {
           group.duplicates.push_back(change.slot);
@@ -163,32 +163,32 @@ class StepWriter {
         }
         group.bytes.push_back(code(blocks::kDuplicate, change.slot));
         return;
-      case StripChange::kInsert:
+      case BlockChange::kInsert:
         return insert(group, change);
-      case StripChange::kOpen: {
+      case BlockChange::kOpen: {
         select(group, change.vertex);
         return copy_or_value(group, change, blocks::kOpenCopy, blocks::kOpenValue, change.detail);
       }
-      case StripChange::kAssign:
+      case BlockChange::kAssign:
         return copy_or_value(group, change, blocks::kAssignCopy, blocks::kAssignValue, change.slot);
-      case StripChange::kRotate:
+      case BlockChange::kRotate:
         extended(group, change.detail == 1 ? blocks::kRotateOne : blocks::kRotateTwo);
         break;
-      case StripChange::kReverse:
+      case BlockChange::kReverse:
         extended(group, blocks::kReverse);
         break;
-      case StripChange::kSplit:
+      case BlockChange::kSplit:
         group.makes_block = true;
-        extended(group, change.detail == StripChange::kBetween ? blocks::kSplitBetween
+        extended(group, change.detail == BlockChange::kBetween ? blocks::kSplitBetween
                                                                : blocks::kSplitInside);
         break;
-      case StripChange::kNewBlock:
+      case BlockChange::kNewBlock:
         group.makes_block = true;
         extended(group, blocks::kNewBlock);
         return;
     }
     group.bytes.push_back(change.slot);
-    if (change.kind == StripChange::kReverse) group.bytes.push_back(change.detail);
+    if (change.kind == BlockChange::kReverse) group.bytes.push_back(change.detail);
   }
 
   const CollapseSequence& sequence_;

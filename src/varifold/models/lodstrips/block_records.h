@@ -25,7 +25,7 @@ enum Kind : std::uint8_t {
 /// What follows: s a slot, n a number of slots, each a byte; v a vertex, four bytes.
 enum Extended : std::uint8_t {
   kAdvance,        ///< n: the new vertex is that many further on
-  kOpenCopy,       ///< n, s: a strip of one triangle in order n (StripChange), of the new
+  kOpenCopy,       ///< n, s: a strip of one triangle in order n (BlockChange), of the new
                    ///< vertex, its target and a copy of slot s
   kOpenValue,      ///< n, v: the same with v
   kInsertCopy,     ///< s, s: before the first, a copy of the second
