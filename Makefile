@@ -2,13 +2,14 @@
 
 JOBS ?= $(shell nproc)
 
-.PHONY: help demo test deps build bench format tidy ci clean
+.PHONY: help demo test deps build bench figures format tidy ci clean
 
 help:
 	@echo "make demo    build and run the tour: pictures of five levels in demo/index.html"
 	@echo "make test    build and run the tests"
 	@echo "make build   build the tool: build/release/bin/varifold"
 	@echo "make bench   build and run the benchmarks (BENCH=regular_expression picks some)"
+	@echo "make figures draw the charts of docs/pictures/strips (needs the real meshes)"
 	@echo "make deps    install the Debian packages of packages.txt that are missing"
 	@echo "make format  format all sources with clang-format"
 	@echo "make tidy    check all sources with clang-tidy"
@@ -30,6 +31,10 @@ build: deps
 bench: deps
 	@sh cmake/build_preset.sh bench
 	build/bench/bin/varifold_benchmarks --benchmark_filter='$(or $(BENCH),.)'
+
+figures: build
+	python3 benchmarks/figures/strip_figures.py build/release/bin/varifold \
+	  "$(or $(VARIFOLD_MESHES),../shared/meshes)" docs/pictures/strips
 
 format:
 	git ls-files '*.h' '*.cpp' | xargs clang-format -i

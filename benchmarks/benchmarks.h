@@ -9,6 +9,6 @@ void register_strip_framework();
 void register_io();
 void register_measure();
 void register_strips();
-void register_lod_strips();
+void register_lodstrips();
 
 }  // namespace varifold::bench

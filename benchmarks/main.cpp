@@ -8,7 +8,7 @@ int main(int argc, char** argv) {
   varifold::bench::register_simplify();
   varifold::bench::register_progressive_mesh();
   varifold::bench::register_strips();
-  varifold::bench::register_lod_strips();
+  varifold::bench::register_lodstrips();
   varifold::bench::register_strip_framework();
   varifold::bench::register_io();
   varifold::bench::register_measure();

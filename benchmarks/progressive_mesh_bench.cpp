@@ -3,17 +3,15 @@
 #include <benchmark/benchmark.h>
 #include <benchmarks/bench_meshes.h>
 #include <benchmarks/benchmarks.h>
-#include <varifold/base/random.h>
+#include <benchmarks/level_tours.h>
 #include <varifold/models/pm/build.h>
 #include <varifold/models/pm/encoding.h>
 #include <varifold/models/pm/instance.h>
-#include <varifold/simplify/simplify.h>
 #include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace varifold::bench {
@@ -22,16 +20,6 @@ namespace {
 
 using benchmark::Counter;
 using benchmark::State;
-
-const DetailedMesh& detailed(const std::string& name) {
-  static std::map<std::string, DetailedMesh> made;
-  const auto found = made.find(name);
-  if (found != made.end()) return found->second;
-  SimplifyOptions options;
-  options.measure_error = false;
-  auto result = simplify(mesh(name), options);
-  return made.emplace(name, result ? std::move(result->detailed) : DetailedMesh{}).first->second;
-}
 
 std::shared_ptr<const ProgressiveMesh> model_of(const std::string& name) {
   static std::map<std::string, std::shared_ptr<const ProgressiveMesh>> made;
@@ -71,36 +59,13 @@ void decode(State& state, const std::string& name, const EncodeOptions& options)
   count_stream(state, bytes.size(), model->data().mesh.vertex_count());
 }
 
-std::vector<std::uint32_t> linear_levels(std::uint32_t finest) {
-  constexpr std::uint32_t kSteps = 1000;
-  std::vector<std::uint32_t> levels;
-  for (std::uint32_t i = kSteps; i-- > 0;)
-    levels.push_back(static_cast<std::uint32_t>(std::uint64_t{finest} * i / kSteps));
-  for (std::uint32_t i = 1; i <= kSteps; ++i)
-    levels.push_back(static_cast<std::uint32_t>(std::uint64_t{finest} * i / kSteps));
-  return levels;
-}
-
-std::vector<std::uint32_t> random_levels(std::uint32_t finest) {
-  Random random(1);
-  std::vector<std::uint32_t> levels;
-  for (int i = 0; i < 100; ++i) levels.push_back(random.below(finest + 1));
-  levels.push_back(finest);
-  return levels;
-}
-
 // Every tour begins and ends at full detail.
 void tour(State& state, const std::string& name,
           std::vector<std::uint32_t> (*levels_for)(std::uint32_t)) {
   ProgressiveMeshInstance instance(model_of(name));
   const std::uint32_t finest = instance.model().finest_level();
   const std::vector<std::uint32_t> levels = levels_for(finest);
-  std::uint64_t steps = 0;
-  std::uint32_t at = finest;
-  for (const std::uint32_t level : levels) {
-    steps += level > at ? level - at : at - level;
-    at = level;
-  }
+  const std::uint64_t steps = steps_of(levels, finest);
   instance.go_to_level(finest);
   for (auto _ : state) {
     for (const std::uint32_t level : levels) {

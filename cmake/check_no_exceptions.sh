@@ -10,7 +10,7 @@ mkdir -p "$out"
 # Of base and mesh what the runtime uses; of each model everything but its build.
 sources="src/varifold/base/checksum.cpp src/varifold/mesh/triangle_mesh.cpp"
 sources="$sources $(git ls-files 'src/varifold/view/*.cpp')"
-sources="$sources $(git ls-files 'src/varifold/models/*/*.cpp' | grep -v -E '(/build[a-z_]*|_build)\.cpp$')"
+sources="$sources $(git ls-files 'src/varifold/models/*/*.cpp' | grep -v -E '([/_]build[a-z_]*|static_removal)\.cpp$')"
 sources="$sources tests/runtime/no_exceptions.cpp"
 
 compiler=g++

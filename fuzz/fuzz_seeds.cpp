@@ -113,7 +113,10 @@ bool put_strips(const std::filesystem::path& folder) {
     const DetailedMesh detailed = simplify(mesh)->detailed;
     const TriangleStrips strips = stripify(detailed.mesh);
     done = put(folder / "mts" / name, encode_mts(build_mts(detailed, strips))) && done;
-    done = put(folder / "lodstrips" / name, encode_lod_strips(build_lod_strips(detailed))) && done;
+    for (const LodStripsForm form : kLodStripsForms)
+      done = put(folder / "lodstrips" / (name + std::string("_") + std::string(form_name(form))),
+                 encode_lod_strips(build_lod_strips(detailed, form, strips))) &&
+             done;
     done = put(folder / "strips" / name,
                encode_strip_framework(build_strip_framework(detailed, strips))) &&
            done;

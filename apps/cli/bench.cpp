@@ -110,9 +110,10 @@ class BenchWalk {
         instance_.go_to_level(path[step]);
       }
       const DrawList list = instance_.draw_list();
-      extraction_ += watch.seconds();
+      const double extraction = watch.seconds(), drawn_before = drawing_;
+      extraction_ += extraction;
       if (auto drawn = draw(list); !drawn) return tl::unexpected(drawn.error());
-      note(step, list);
+      note(step, list, extraction, drawing_ - drawn_before);
     }
     return result();
   }
@@ -135,7 +136,7 @@ class BenchWalk {
   }
 
   // At most 101 samples of all steps, the first and the last among them.
-  void note(std::uint32_t step, const DrawList& list) {
+  void note(std::uint32_t step, const DrawList& list, double extraction, double drawing) {
     const SubmittedIndices sent = submitted_indices(list);
     indices_ += sent.indices;
     const std::uint32_t level = instance_.level();
@@ -149,7 +150,9 @@ class BenchWalk {
     Json sample{{"step", step},
                 {"indices", sent.indices},
                 {"vertices", sent.vertices},
-                {"strips", sent.strips}};
+                {"strips", sent.strips},
+                {"seconds_extraction", extraction},
+                {"seconds_drawing", device_ ? Json(drawing) : Json()}};
     if (command_.test.name != "plane") {
       sample["level"] = level;
       sample["triangles"] = model_->triangle_count(level);

@@ -47,16 +47,23 @@ struct StripsBuild<LodStrips> {
   static constexpr const char* kHelp = "LodStrips: strips changed in place, ready to be drawn";
   struct Options {
     std::string form = "blocks";
+    StripifierOptions stripifier;
   };
   static void add_options(CLI::App& command, Options& options) {
     command
-        .add_option("--form", options.form, "blocks: strips built from coarse to fine, in blocks")
-        ->check(CLI::IsMember({"blocks"}))
+        .add_option("--form", options.form,
+                    "blocks: strips built from coarse to fine, in blocks; grouped, thesis: strips "
+                    "of the full mesh, with the records of chapters 5 and 4 of the thesis")
+        ->check(CLI::IsMember({"blocks", "grouped", "thesis"}))
         ->capture_default_str()
         ->type_name("FORM");
+    options.stripifier.max_indices = kStaticStripIndices;
+    add_stripifier_options(command, options.stripifier);
   }
-  static LodStrips build(const DetailedMesh& detailed, const Options&) {
-    return build_lod_strips(detailed);
+  static LodStrips build(const DetailedMesh& detailed, const Options& options) {
+    if (options.form == "blocks") return build_lod_strips(detailed);
+    const auto form = options.form == "grouped" ? LodStripsForm::kGrouped : LodStripsForm::kThesis;
+    return build_lod_strips(detailed, form, make_strips(detailed, options.stripifier));
   }
 };
 

@@ -1,6 +1,7 @@
 #include <apps/cli/stripifier.h>
 #include <varifold/strip/sequence_strips.h>
 #include <varifold/strip/stripify.h>
+#include <algorithm>
 
 namespace varifold::cli {
 
@@ -16,12 +17,19 @@ void add_stripifier_options(CLI::App& command, StripifierOptions& options) {
       ->check(CLI::IsMember({16u, 24u}))
       ->capture_default_str()
       ->type_name("N");
+  command
+      .add_option("--max-indices", options.max_indices,
+                  "No strip is longer, since long ones are slow to change; 0: no limit")
+      ->check(CLI::Range(0u, 1000000u))
+      ->capture_default_str()
+      ->type_name("N");
 }
 
 TriangleStrips make_strips(const DetailedMesh& detailed, const StripifierOptions& options) {
   if (options.name == "sequence") return stripify_along_sequence(detailed);
   StripifyOptions stripify_options;
   stripify_options.cache_size = options.cache_size;
+  stripify_options.max_indices = options.max_indices == 0 ? 0 : std::max(4u, options.max_indices);
   if (options.name == "cache") stripify_options.method = StripMethod::kCacheAware;
   return stripify(detailed.mesh, stripify_options);
 }

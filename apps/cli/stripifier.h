@@ -12,6 +12,7 @@ namespace varifold::cli {
 struct StripifierOptions {
   std::string name = "length";
   std::uint32_t cache_size = 16;
+  std::uint32_t max_indices = 0;  ///< of a strip; 0: no limit
 };
 void add_stripifier_options(CLI::App& command, StripifierOptions& options);
 

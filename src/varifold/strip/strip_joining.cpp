@@ -1,11 +1,15 @@
 // Based on: [Stewart2001] (tunnels between the ends of strips).
 // Differs: tunnels cross at most one strip, and count swaps as well as strips.
 #include <varifold/strip/strip_joining.h>
+#include <algorithm>
+#include <array>
 #include <utility>
 
 namespace varifold {
 
 namespace {
+
+constexpr int kMostGain = kStripCost + 1;  // a strip, and a swap at a beginning
 
 // Triangles from a tunnel to the ends of the strip that it crosses; more gains 1 % of indices.
 constexpr std::uint32_t kMaxWalk = 40;
@@ -91,14 +95,24 @@ class PathJoiner {
     paths_.link(half_edge);
     set_ends(far_a, far_b);
   }
+  // The best gains first; one that others have made smaller waits for its turn.
   void join_touching() {
-    std::vector<std::uint32_t> ends;
-    for (std::uint32_t t = 0; t < paths_.triangle_count(); ++t)
-      if (is_end(t)) ends.push_back(t);
-    for (int wanted = kStripCost + 1; wanted > 0; --wanted)
-      for (const std::uint32_t t : ends)
-        for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h)
-          if (can_join(h) && gain(h) >= wanted) join(h);
+    std::array<std::vector<std::uint32_t>, kMostGain + 1> waiting;  // half-edges by gain
+    const auto wait = [&](std::uint32_t h, int most) {
+      const int saved = std::min(gain(h), most);
+      if (saved > 0) waiting[static_cast<std::size_t>(saved)].push_back(h);
+    };
+    for (std::uint32_t h = 0; h < 3 * paths_.triangle_count(); ++h)
+      if (is_end(h / 3) && can_join(h) && h < paths_.across(h)) wait(h, kMostGain);
+    for (int most = kMostGain; most > 0; --most) {
+      for (const std::uint32_t h : waiting[static_cast<std::size_t>(most)]) {
+        if (!can_join(h)) continue;
+        if (gain(h) >= most)
+          join(h);
+        else
+          wait(h, most - 1);
+      }
+    }
   }
 
   // From end triangle `t` into a strip beside it.

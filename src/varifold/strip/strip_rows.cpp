@@ -66,29 +66,42 @@ class RowTaker {
     place.exit = exit_of(entry, place.turn);
     return true;
   }
-  bool see(const Place& place) {
+  [[nodiscard]] bool seen(const Place& place) const {
     const std::uint32_t axis = axis_of(place);
-    const auto bit = static_cast<std::uint8_t>(1u << (axis % 3));
-    if ((seen_[axis / 3] & bit) != 0) return false;
-    seen_[axis / 3] |= bit;
-    return true;
+    return (seen_[axis / 3] >> (axis % 3) & 1u) != 0;
+  }
+  void see(const Place& place) {
+    const std::uint32_t axis = axis_of(place);
+    seen_[axis / 3] |= static_cast<std::uint8_t>(1u << (axis % 3));
   }
 
   // The row through a triangle that does not cross its edge `axis`.
   void find(std::uint32_t axis) {
-    Place place{previous_half_edge(axis), 0};
-    const Place start = place;
-    while (step(place) && !(place == start)) {
+    const Place start{previous_half_edge(axis), 0};
+    Place last = start, first = turned_round(start);
+    std::uint32_t length = see_from(last);
+    Place before = first;
+    if (step(before) && !seen(before)) {
+      first = before;
+      length += see_from(first);
     }
-    place = turned_round(place);
-    Row row{place, 0};
-    for (bool more = true; more && see(place); more = step(place)) {
-      if (row.length == 0) row.begin = place;
-      if (++row.length < kLongest) continue;
-      push(row);
-      row.length = 0;
+    Place place = turned_round(first);
+    while (length > 0) {
+      const std::uint32_t piece = std::min(length, kLongest);
+      push({place, static_cast<std::uint8_t>(piece)});
+      length -= piece;
+      for (std::uint32_t i = 0; i < piece && length > 0; ++i) step(place);
     }
-    push(row);
+  }
+  // Walks on over triangles that were not seen; `place` becomes the last one. Returns how many.
+  std::uint32_t see_from(Place& place) {
+    std::uint32_t length = 1;
+    see(place);
+    for (Place next = place; step(next) && !seen(next); ++length) {
+      place = next;
+      see(place);
+    }
+    return length;
   }
 
   // Links a row where all of it is free; else puts back its pieces that are.

@@ -60,12 +60,17 @@ bool expect_fault_or_model(const std::string& name, std::span<const std::byte> b
     EXPECT_EQ(decoded.error().message.find('\n'), std::string::npos);
     return false;
   }
-  StripFrameworkInstance instance(std::make_shared<StripFramework>(*decoded));
+  const auto model = std::make_shared<StripFramework>(*decoded);
+  StripFrameworkInstance instance(model);
   const std::uint32_t finest = decoded->finest_level();
   for (const std::uint32_t level : {0u, finest, finest / 2}) {
     instance.go_to_level(level);
     const TriangleMesh mesh = instance.extract();
     EXPECT_EQ(mesh.triangle_count(), decoded->triangle_count(level)) << name;
+    // Whatever the front before was.
+    StripFrameworkInstance fresh(model);
+    fresh.go_to_level(level);
+    EXPECT_TRUE(fresh.slots() == instance.slots()) << name;
     for (const Fault& fault : validate(mesh, 1))
       EXPECT_NE(fault.severity, Severity::kBroken) << name << ": " << fault.kind;
     RefineCriteria criteria;

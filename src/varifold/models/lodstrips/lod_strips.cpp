@@ -4,6 +4,7 @@
 #include <varifold/models/common/level_table_bytes.h>
 #include <varifold/models/common/mesh_bytes.h>
 #include <varifold/models/common/uniform_model.h>
+#include <array>
 #include <string>
 #include <utility>
 
@@ -43,7 +44,10 @@ bool take_ranges(SectionReader& section, TriangleMesh& mesh) {
 
 }  // namespace
 
-std::string_view form_name(LodStripsForm /*form*/) { return "blocks"; }
+std::string_view form_name(LodStripsForm form) {
+  constexpr std::array<std::string_view, 3> kNames = {"blocks", "grouped", "thesis"};
+  return kNames[static_cast<std::size_t>(form)];
+}
 
 LodStrips::LodStrips(LevelTable levels, TriangleMesh attributes, Form form)
     : levels_(std::move(levels)), attributes_(std::move(attributes)), form_(std::move(form)) {
@@ -94,7 +98,17 @@ Result<LodStrips> decode_lod_strips(std::span<const std::byte> bytes) {
 
 LodStripsInstance::Cursor LodStripsInstance::make_cursor(const LodStrips& model,
                                                          StripBuffer buffer) {
-  return BlockCursor(std::get<BlockForm>(model.form()), model.levels(), model.attributes(), buffer);
+  const auto make = [&]<class Made, class Form>(std::in_place_type_t<Made> made, const Form& form) {
+    Cursor cursor(made, form, model.levels(), model.attributes());
+    std::get<Made>(cursor).go_to_level(0);
+    return cursor;
+  };
+  if (const auto* const form = std::get_if<GroupedForm>(&model.form()))
+    return make(std::in_place_type<GroupedCursor>, *form);
+  if (const auto* const form = std::get_if<ThesisForm>(&model.form()))
+    return make(std::in_place_type<ThesisCursor>, *form);
+  return Cursor(std::in_place_type<BlockCursor>, std::get<BlockForm>(model.form()), model.levels(),
+                model.attributes(), buffer);
 }
 
 LodStripsInstance::LodStripsInstance(std::shared_ptr<const LodStrips> model, StripBuffer buffer)

@@ -8,6 +8,10 @@
 #include <varifold/mesh/triangle_mesh.h>
 #include <varifold/models/common/level_table.h>
 #include <varifold/models/lodstrips/block_form.h>
+#include <varifold/models/lodstrips/grouped_cursor.h>
+#include <varifold/models/lodstrips/grouped_form.h>
+#include <varifold/models/lodstrips/thesis_cursor.h>
+#include <varifold/models/lodstrips/thesis_form.h>
 #include <varifold/view/draw_list.h>
 #include <array>
 #include <cstddef>
@@ -21,18 +25,21 @@
 namespace varifold {
 
 enum class LodStripsForm : std::uint8_t {
-  kBlocks,  ///< strips built from coarse to fine, in blocks: block_form.h
+  kBlocks,   ///< strips built from coarse to fine, in blocks: block_form.h
+  kGrouped,  ///< strips of the full mesh, changes in groups: chapter 5, grouped_form.h
+  kThesis,   ///< the same, three words a change: chapter 4, thesis_form.h
 };
 
-inline constexpr std::array<LodStripsForm, 1> kLodStripsForms = {LodStripsForm::kBlocks};
+inline constexpr std::array<LodStripsForm, 3> kLodStripsForms = {
+    LodStripsForm::kBlocks, LodStripsForm::kGrouped, LodStripsForm::kThesis};
 
-/// "blocks", ...
+/// "blocks", "grouped", "thesis".
 [[nodiscard]] std::string_view form_name(LodStripsForm form);
 
 /// Immutable, shared by any number of instances and threads.
 class LodStrips {
  public:
-  using Form = std::variant<BlockForm>;
+  using Form = std::variant<BlockForm, GroupedForm, ThesisForm>;  // as LodStripsForm
 
   LodStrips() = default;
   /// The parts must be consistent, as from build_lod_strips() (build.h) or decode_lod_strips(). Of
@@ -114,7 +121,7 @@ class LodStripsInstance {
   [[nodiscard]] std::size_t bytes() const;
 
  private:
-  using Cursor = std::variant<BlockCursor>;
+  using Cursor = std::variant<BlockCursor, GroupedCursor, ThesisCursor>;
   [[nodiscard]] static Cursor make_cursor(const LodStrips& model, StripBuffer buffer);
 
   std::shared_ptr<const LodStrips> model_;

@@ -6,13 +6,6 @@
 
 namespace varifold {
 
-namespace {
-
-// So many steps are looked at to leave out the dependencies of one that follow from others.
-constexpr std::uint32_t kReductionEffort = 512;
-
-}  // namespace
-
 std::vector<std::uint32_t> steps_of_vertices(const CollapseSequence& sequence) {
   std::vector<std::uint32_t> steps(sequence.target.size(), kNone);
   for (std::uint32_t k = 0; k < sequence.step_count(); ++k)
@@ -27,7 +20,7 @@ StepGraph::StepGraph(const DetailedMesh& detailed)
   begin_.assign(steps, 0);
   end_.assign(steps, 0);
   first_waiting_.assign(steps, kNone);
-  mark_.assign(steps, kNone);
+  DependencyWalk walk(steps);
 
   SequenceReplay replay(detailed);
   std::vector<std::uint32_t> last_change(detailed.mesh.triangle_count(), kNone);
@@ -43,7 +36,7 @@ StepGraph::StepGraph(const DetailedMesh& detailed)
     // ... and those that removed others around it.
     for (std::uint32_t i = first_waiting_[k]; i != kNone; i = waiting_[i].next)
       candidates.push_back(waiting_[i].step);
-    reduce(k, candidates);
+    reduce(k, walk, candidates);
 
     replay.collapse();
     for (const std::uint32_t slot : replay.changed()) last_change[slot / 3] = k;
@@ -54,7 +47,7 @@ StepGraph::StepGraph(const DetailedMesh& detailed)
       wait(sequence.target[v], k);
   }
   waiting_ = {};
-  first_waiting_ = mark_ = stack_ = step_of_ = {};
+  first_waiting_ = step_of_ = {};
 }
 
 // The collapse of that vertex will have to wait for `step`.
@@ -68,26 +61,16 @@ void StepGraph::wait(std::uint32_t vertex, std::uint32_t step) {
 }
 
 // Enters the candidates but those that a candidate nearer to the step depends on.
-void StepGraph::reduce(std::uint32_t step, std::vector<std::uint32_t>& candidates) {
+void StepGraph::reduce(std::uint32_t step, DependencyWalk& walk,
+                       std::vector<std::uint32_t>& candidates) {
   std::sort(candidates.begin(), candidates.end());
   candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
   begin_[step] = static_cast<std::uint32_t>(edges_.size());
-  std::uint32_t effort = kReductionEffort;
+  walk.begin(step);
   for (const std::uint32_t candidate : candidates) {
-    if (mark_[candidate] == step) continue;
+    if (walk.is_marked(candidate)) continue;
     edges_.push_back(candidate);
-    stack_.assign(1, candidate);
-    while (!stack_.empty() && effort > 0) {
-      const std::uint32_t at = stack_.back();
-      stack_.pop_back();
-      for (const std::uint32_t next : of(at)) {
-        if (next > candidates.back()) break;
-        if (mark_[next] == step) continue;
-        mark_[next] = step;
-        stack_.push_back(next);
-        if (effort > 0) --effort;
-      }
-    }
+    walk.follow(candidate, candidates.back(), [&](std::uint32_t s) { return of(s); });
   }
   end_[step] = static_cast<std::uint32_t>(edges_.size());
 }

@@ -1,6 +1,7 @@
 // Which collapses of a sequence must come before which others, whatever else is done or not.
 #pragma once
 
+#include <varifold/models/strips/dependencies.h>
 #include <varifold/simplify/collapse_sequence.h>
 #include <cstdint>
 #include <span>
@@ -23,7 +24,7 @@ class StepGraph {
   [[nodiscard]] std::vector<std::uint32_t> packed() const;
 
  private:
-  void reduce(std::uint32_t step, std::vector<std::uint32_t>& candidates);
+  void reduce(std::uint32_t step, DependencyWalk& walk, std::vector<std::uint32_t>& candidates);
   void wait(std::uint32_t vertex, std::uint32_t step);
 
   std::vector<std::uint32_t> edges_, begin_, end_;  // filled from the finest step down
@@ -33,7 +34,6 @@ class StepGraph {
   };
   std::vector<Waiting> waiting_;
   std::vector<std::uint32_t> first_waiting_;  // per step
-  std::vector<std::uint32_t> mark_, stack_;
   std::vector<std::uint32_t> step_of_;
 };
 

@@ -5,6 +5,7 @@
 #include <varifold/models/common/level_table_bytes.h>
 #include <varifold/models/common/mesh_bytes.h>
 #include <varifold/models/common/section_reader.h>
+#include <varifold/models/strips/dependencies.h>
 #include <varifold/models/strips/strip_levels.h>
 #include <cmath>
 #include <string_view>
@@ -16,7 +17,6 @@ namespace {
 
 constexpr std::string_view kTag = "VST1";
 constexpr std::uint32_t kMostSlots = 0x7fffffff;
-constexpr std::uint32_t kLastDependency = StripFrameworkData::kLastDependency;
 
 bool all_finite(const std::vector<Vec3>& positions) {
   for (const Vec3& p : positions)
@@ -86,23 +86,9 @@ bool triangles_match(const StripFrameworkData& data, const TriangleStrips& strip
 Result<void> take_dependencies(SectionReader& section, StripFrameworkData& data) {
   const std::uint32_t words = section.take_count(4);
   data.dependencies = section.take_array<std::uint32_t>(words);
-  const std::uint32_t steps = data.levels.finest_level();
-  std::size_t at = 0;
-  for (std::uint32_t k = steps; k-- > 0;) {
-    std::uint32_t before = k;
-    for (bool last = false; !last; ++at) {
-      if (at == data.dependencies.size()) return section.fault("a step has no dependencies");
-      const std::uint32_t word = data.dependencies[at];
-      last = (word & kLastDependency) != 0;
-      if (word == kNone && before == k) continue;
-      const std::uint32_t finer = word & ~kLastDependency;
-      if (finer <= before || finer >= steps)
-        return section.fault("a step depends on one that is not finer, or out of order");
-      before = finer;
-    }
-  }
-  if (at != data.dependencies.size())
-    return section.fault("there are more dependencies than steps");
+  if (!section.good()) return section.fault("the dependencies end too early");
+  if (const char* fault = dependency_fault(data.dependencies, data.levels))
+    return section.fault(fault);
   return {};
 }
 

@@ -32,20 +32,20 @@ struct NamedStrips {
   SharedStrips model;
 };
 
-// Every test mesh, with short and with long words in its records; made once.
+// Every test mesh in every form, that of blocks with short and with long words; made once.
 const std::vector<NamedStrips>& all_models() {
   static const std::vector<NamedStrips> models = [] {
     std::vector<NamedStrips> made;
     for (const test::NamedMesh& named : test::all_groups()) {
-      for (const std::uint32_t word_bytes : {3u, 4u}) {
-        NamedStrips strips;
-        strips.name = named.name + (word_bytes == 4 ? "/long words" : "");
-        strips.detailed = simplified(named.mesh);
-        strips.model = std::make_shared<const LodStrips>(
-            LevelTable(strips.detailed.sequence), strips.detailed.mesh,
-            build_block_form(strips.detailed, word_bytes));
-        made.push_back(std::move(strips));
-      }
+      const DetailedMesh detailed = simplified(named.mesh);
+      const auto add = [&](const std::string& form, LodStrips model) {
+        made.push_back({named.name + "/" + form, detailed,
+                        std::make_shared<const LodStrips>(std::move(model))});
+      };
+      for (const LodStripsForm form : kLodStripsForms)
+        add(std::string(form_name(form)), build_lod_strips(detailed, {.form = form}));
+      add("blocks, long words",
+          {LevelTable(detailed.sequence), detailed.mesh, build_block_form(detailed, 4)});
     }
     return made;
   }();
@@ -60,7 +60,7 @@ std::vector<std::uint32_t> drawn_bytes(LodStripsInstance& instance) {
   return bytes;
 }
 
-TEST(BlockForm, HasTheTrianglesOfEveryLevel) {
+TEST(LodStripsModel, HasTheTrianglesOfEveryLevel) {
   for (const NamedStrips& strips : all_models()) {
     for (const StripBuffer buffer : {StripBuffer::kInPlace, StripBuffer::kCompact}) {
       LodStripsInstance instance(strips.model, buffer);
@@ -80,7 +80,7 @@ TEST(BlockForm, HasTheTrianglesOfEveryLevel) {
 }
 
 // Down and up again one by one: the bytes of each level are those of the way up.
-TEST(BlockForm, EveryCollapseUndoesItsSplit) {
+TEST(LodStripsModel, EveryCollapseUndoesItsSplit) {
   for (const NamedStrips& strips : all_models()) {
     if (strips.model->finest_level() > 400) continue;
     LodStripsInstance instance(strips.model);
@@ -96,7 +96,7 @@ TEST(BlockForm, EveryCollapseUndoesItsSplit) {
   }
 }
 
-TEST(BlockForm, BytesDependOnTheLevelAlone) {
+TEST(LodStripsModel, BytesDependOnTheLevelAlone) {
   Random random(7);
   for (const NamedStrips& strips : all_models()) {
     for (const StripBuffer buffer : {StripBuffer::kInPlace, StripBuffer::kCompact}) {
@@ -113,7 +113,7 @@ TEST(BlockForm, BytesDependOnTheLevelAlone) {
   }
 }
 
-TEST(BlockForm, ChangedRangesAreEnoughForADevice) {
+TEST(LodStripsModel, ChangedRangesAreEnoughForADevice) {
   Random random(11);
   for (const NamedStrips& strips : all_models()) {
     if (strips.detailed.mesh.positions.empty()) continue;
@@ -131,7 +131,7 @@ TEST(BlockForm, ChangedRangesAreEnoughForADevice) {
   }
 }
 
-TEST(BlockForm, ComesBackFromItsBytes) {
+TEST(LodStripsModel, ComesBackFromItsBytes) {
   for (const NamedStrips& strips : all_models()) {
     const std::vector<std::byte> bytes = encode_lod_strips(*strips.model);
     const auto model = decode_lod_strips(bytes);
@@ -152,7 +152,7 @@ TEST(BlockForm, ComesBackFromItsBytes) {
 }
 
 // Each of these has a change that one mesh of ten has.
-TEST(BlockForm, SeedsWithRareChangesComeBackFromTheirBytes) {
+TEST(LodStripsModel, SeedsWithRareChangesComeBackFromTheirBytes) {
   for (const std::uint64_t seed : {21u, 31u, 32u, 40u}) {
     PlanetOptions globe;
     TerrainOptions ground;
@@ -165,7 +165,7 @@ TEST(BlockForm, SeedsWithRareChangesComeBackFromTheirBytes) {
   }
 }
 
-TEST(BlockForm, LargeMeshesComeBackFromTheirBytes) {
+TEST(LodStripsModel, LargeMeshesComeBackFromTheirBytes) {
   PlanetOptions options;
   options.triangles = 150000;
   const DetailedMesh detailed = simplified(planet(options));
@@ -188,18 +188,20 @@ void play(const LodStrips& damaged) {
   LodStripsInstance instance(model);
   for (const std::uint32_t level : {model->finest_level(), 0u, model->finest_level() / 2}) {
     instance.go_to_level(level);
-    for (const std::uint32_t index : instance.draw_list().indices)
-      ASSERT_TRUE(index == kStripRestart || index < model->vertex_count(level));
+    const DrawList list = instance.draw_list();
+    for (const DrawRange& range : list.ranges)
+      for (const std::uint32_t index : list.indices.subspan(range.first_index, range.index_count))
+        ASSERT_TRUE(index == kStripRestart || index < model->vertex_count(level));
   }
 }
 
-TEST(BlockForm, DamagedBytesAreHarmless) {
+TEST(LodStripsModel, DamagedBytesAreHarmless) {
   Random random(5);
   std::uint32_t refused = 0, all = 0;
   for (const NamedStrips& strips : all_models()) {
     const std::vector<std::byte> bytes = encode_lod_strips(*strips.model);
     if (bytes.size() > 20000) continue;
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < 40; ++i) {
       std::vector<std::byte> damaged = bytes;
       const std::uint32_t hits = 1 + random.below(3);
       for (std::uint32_t hit = 0; hit < hits; ++hit)
@@ -221,7 +223,7 @@ TEST(BlockForm, DamagedBytesAreHarmless) {
   EXPECT_GT(refused, all / 10);
 }
 
-TEST(BlockForm, TakesLittleMemory) {
+TEST(LodStripsModel, TakesLittleMemory) {
   for (const char* const name : {"bunny.ply", "armadillo.ply"}) {
     VARIFOLD_REAL_MESH_OR_SKIP(path, name);
     const auto mesh = read_mesh(path);
