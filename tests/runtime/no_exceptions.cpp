@@ -1,5 +1,7 @@
 // The runtime parts of the models in a program without exceptions; see
 // cmake/check_no_exceptions.sh. One vertex split by hand, there and back, and through its bytes.
+#include <varifold/models/mts/encoding.h>
+#include <varifold/models/mts/instance.h>
 #include <varifold/models/pm/encoding.h>
 #include <varifold/models/pm/geomorph.h>
 #include <varifold/models/pm/instance.h>
@@ -29,15 +31,19 @@ varifold::ProgressiveMeshData split_triangle() {
 }
 
 // The same in strips: one of the triangles 3 0 1 and 3 1 2, and one of 3 2 0.
-varifold::StripFramework strips_of_triangle() {
+varifold::LevelTable levels_of_triangle() {
   varifold::CollapseSequence sequence;
   sequence.target = {varifold::kNone, varifold::kNone, varifold::kNone, 0};
   sequence.vertices = {3, 4};
   sequence.triangles = {1, 3};
   sequence.error = {0.5f, 0};
+  return varifold::LevelTable(sequence);
+}
+
+varifold::StripFramework strips_of_triangle() {
   varifold::StripFrameworkData data;
   data.mesh.positions = split_triangle().mesh.positions;
-  data.levels = varifold::LevelTable(sequence);
+  data.levels = levels_of_triangle();
   data.dependencies = {varifold::kNone};
   data.radius = {3};
   data.cone = {varifold::kWideConeCode};
@@ -48,6 +54,33 @@ varifold::StripFramework strips_of_triangle() {
   strips.indices.insert(strips.indices.end(), {3, 2, 0});
   strips.end_strip(0);
   return {std::move(data), std::move(strips)};
+}
+
+// As graphs: 0 1 3 2, then 0 1 2; and 3 2 0, then nothing.
+varifold::MultiresolutionStrips graphs_of_triangle() {
+  varifold::MultiresolutionStripsData data;
+  data.mesh.positions = split_triangle().mesh.positions;
+  data.levels = levels_of_triangle();
+  data.strips = {{0, 0, 0, 0}, {5, 6, 1, 5}, {9, 11, 2, 9}};
+  data.first_strip = {0, 2};
+  data.node_vertex = {varifold::kNone, 0, 1, 3, 2, varifold::kNone, 3, 2, 0};
+  data.node_arc = {0, 1, 2, 4, 5, 0, 2, 3, 4};
+  data.arcs = {{1, 1}, {2, 1}, {3, 0}, {4, 1}, {4, 0}, {5, 1},
+               {1, 0}, {4, 1}, {2, 0}, {3, 0}, {4, 0}};
+  data.changes = {0, 0};
+  return varifold::MultiresolutionStrips(std::move(data));
+}
+
+bool graphs_are_right() {
+  const auto decoded = varifold::decode_mts(varifold::encode_mts(graphs_of_triangle()));
+  if (!decoded || varifold::decode_mts({})) return false;
+  const auto model = std::make_shared<const varifold::MultiresolutionStrips>(*decoded);
+  varifold::MultiresolutionStripsInstance instance(model);
+  const bool coarse = varifold::submitted_triangles(instance.draw_list()) == 1;
+  instance.go_to_level(1);
+  const bool fine = varifold::submitted_triangles(instance.draw_list()) == 3;
+  instance.go_to_level(0);
+  return coarse && fine && instance.extract().triangle_count() == 1;
 }
 
 bool strips_are_right() {
@@ -82,7 +115,8 @@ int main() {
   varifold::Geomorph geomorph(*model, 0, 1);
   geomorph.blend(0);
   const bool morphs = geomorph.mesh().positions[3] == varifold::Vec3(0, 0, 0);
-  if (!refined || !undone || !survives || !refused || !morphs || !strips_are_right()) {
+  if (!refined || !undone || !survives || !refused || !morphs || !strips_are_right() ||
+      !graphs_are_right()) {
     std::puts("no exceptions: a level is wrong");
     return 1;
   }

@@ -4,6 +4,7 @@
 #include <varifold/base/random.h>
 #include <varifold/mesh/validation.h>
 #include <varifold/models/mts/encoding.h>
+#include <limits>
 
 namespace varifold::test {
 namespace {
@@ -107,6 +108,12 @@ TEST(MtsEncoding, RandomNumbersInTheStrips) {
       expect_fault_or_model(named->name, bytes);
     }
   }
+}
+
+TEST(MtsEncoding, PositionsThatAreNoNumbers) {
+  MultiresolutionStripsData data = make_mts({"icosphere", icosphere(80)}, false).model->data();
+  data.mesh.positions[7].y = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_FALSE(expect_fault_or_model("nan", encode_mts(MultiresolutionStrips(std::move(data)))));
 }
 
 TEST(MtsEncoding, CountsThatTheBytesDoNotBear) {

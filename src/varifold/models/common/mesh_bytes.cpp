@@ -54,7 +54,11 @@ void take_vectors(SectionReader& section, std::uint32_t count, std::vector<V>& v
   if (!section.good()) return;
   values.resize(count);
   SectionReader reader(part);
-  for (V& value : values) take_vector(reader, value, V::length());
+  for (V& value : values) {
+    take_vector(reader, value, V::length());
+    for (int i = 0; i < V::length(); ++i)
+      if (!(value[i] - value[i] == 0)) section.fail_here();
+  }
 }
 
 }  // namespace

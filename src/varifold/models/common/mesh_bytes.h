@@ -19,7 +19,7 @@ void append_attributes(const TriangleMesh& mesh, std::vector<std::byte>& bytes);
 /// No more is allocated than the bytes justify.
 [[nodiscard]] std::vector<Material> take_materials(SectionReader& section);
 [[nodiscard]] std::vector<Image> take_images(SectionReader& section);
-/// Unknown attributes make section.good() false.
+/// Unknown attributes and values that are not finite make section.good() false, too.
 void take_attributes(SectionReader& section, TriangleMesh& mesh);
 
 /// The images that are all of a section. `offset` is where it stands, for messages. kInvalidInput.

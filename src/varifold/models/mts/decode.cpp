@@ -10,19 +10,8 @@ namespace {
 
 using Data = MultiresolutionStripsData;
 
-template <class V>
-bool all_finite(const std::vector<V>& values) {
-  return std::all_of(values.begin(), values.end(), [](const V& value) {
-    for (int i = 0; i < V::length(); ++i)
-      if (!(value[i] - value[i] == 0)) return false;
-    return true;
-  });
-}
-
 const char* check_mesh(const TriangleMesh& mesh, std::size_t vertices) {
   if (mesh.vertex_count() != vertices) return "the levels have another number of vertices";
-  if (!all_finite(mesh.positions) || !all_finite(mesh.normals) || !all_finite(mesh.texcoords))
-    return "an attribute is not a number";
   for (const Material& material : mesh.materials)
     for (const std::uint32_t image : material.textures)
       if (image != kNone && image >= mesh.images.size()) return "a material names an image beyond";
@@ -167,7 +156,7 @@ Result<MultiresolutionStrips> decode_mts(std::span<const std::byte> bytes) {
   data.mesh.materials = take_materials(section);
   data.mesh.images = take_images(section);
   take_attributes(section, data.mesh);
-  if (!section.good()) return section.fault("the vertices end too early");
+  if (!section.good()) return section.fault("the vertices end too early, or are not finite");
   auto levels = LevelTableCoder::take(section, data.mesh.vertex_count());
   if (!levels) return tl::unexpected<Error>(levels.error());
   data.levels = std::move(*levels);
