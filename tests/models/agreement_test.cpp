@@ -42,7 +42,10 @@ std::vector<Shown> all_models(const DetailedMesh& detailed) {
           show("mts of cache strips", build_mts(detailed, cached)),
           show("mts along the sequence", build_mts(detailed, stripify_along_sequence(detailed))),
           show("strips", build_strip_framework(detailed, strips)),
-          show("lodstrips in blocks", build_lod_strips(detailed))};
+          show("strips of cache strips", build_strip_framework(detailed, cached)),
+          show("lodstrips in blocks", build_lod_strips(detailed)),
+          show("lodstrips, grouped", build_lod_strips(detailed, LodStripsForm::kGrouped, strips)),
+          show("lodstrips, thesis", build_lod_strips(detailed, LodStripsForm::kThesis, cached))};
 }
 
 // All levels of a small mesh in one direction, then a spread in the other; of a large one the
