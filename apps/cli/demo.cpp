@@ -1,6 +1,7 @@
 // varifold demo: the tour of all of it on embedded data.
 #include <apps/cli/commands.h>
 #include <apps/cli/demo_page.h>
+#include <apps/cli/demo_strips.h>
 #include <apps/cli/demo_tour.h>
 #include <fmt/format.h>
 #include <varifold/base/bytes.h>
@@ -107,6 +108,11 @@ Result<DemoResult> tour(const DemoPlace& place, const DemoCommand& command) {
     result.models.push_back(std::move(*shown));
     tell(place, "");
   }
+  if (auto done = check_interrupted(place.folder); !done) return tl::unexpected(done.error());
+  auto strips = show_strips(place);
+  if (!strips) return tl::unexpected(std::move(strips.error()));
+  result.strips = std::move(*strips);
+  tell(place, "");
   auto prefixes = show_stream(place, result.models.front().shape);
   if (!prefixes) return tl::unexpected(std::move(prefixes.error()));
   result.prefixes = std::move(*prefixes);
@@ -135,6 +141,31 @@ Json json_of(const DemoModel& model) {
           {"sound", is_sound(model.faults)},  {"levels", std::move(levels)}};
 }
 
+Json json_of(const DemoStrips& strips) {
+  Json forms = Json::array(), levels = Json::array();
+  for (const DemoStripForm& form : strips.forms)
+    forms.push_back({{"name", form.name},
+                     {"file", form.file},
+                     {"bytes_per_vertex", per_vertex(form.model_bytes, strips)},
+                     {"instance_bytes_per_vertex", per_vertex(form.instance_bytes, strips)},
+                     {"file_bytes_per_vertex", per_vertex(form.file_bytes, strips)},
+                     {"sound", is_sound(form.faults)}});
+  for (const DemoStripLevel& level : strips.levels) {
+    Json indices = Json::object();
+    for (std::size_t i = 0; i < strips.forms.size(); ++i)
+      indices[strips.forms[i].name] = level.indices[i];
+    indices["fresh"] = level.fresh_indices;
+    levels.push_back({{"share", level.share},
+                      {"triangles", level.triangles},
+                      {"strips", level.strips},
+                      {"indices_per_triangle", std::move(indices)},
+                      {"picture", level.picture}});
+  }
+  return {{"mesh", strips.mesh_file},      {"vertices", strips.vertices},
+          {"triangles", strips.triangles}, {"seconds", strips.seconds},
+          {"forms", std::move(forms)},     {"levels", std::move(levels)}};
+}
+
 CommandResult conclude(const DemoCommand& command, const DemoResult& result, double seconds) {
   Report report;
   Json models = Json::array();
@@ -143,8 +174,10 @@ CommandResult conclude(const DemoCommand& command, const DemoResult& result, dou
     models.push_back(json_of(model));
     sound = sound && is_sound(model.faults);
   }
+  for (const DemoStripForm& form : result.strips.forms) sound = sound && is_sound(form.faults);
   report.set("folder", command.folder);
   report.set("models", std::move(models));
+  report.set("strips", json_of(result.strips));
   report.set("sound", sound);
   report.set("device", result.device);
   report.text("page", "look at", (std::filesystem::path(command.folder) / "index.html").string());

@@ -86,6 +86,7 @@ class PageWriter {
     add_crowd();
     add_stream();
     add_others();
+    add_strips();
     add_builds();
     add("<footer>Made by <code>varifold demo</code>");
     if (!result_.device.empty()) add(fmt::format("; drawn by {}", escaped(result_.device)));
@@ -238,6 +239,56 @@ class PageWriter {
     }
   }
 
+  void add_strips() {
+    const DemoStrips& strips = result_.strips;
+    add("<h2>Triangle strips at every level</h2>\n<p>A strip names one vertex for each triangle "
+        "after its first. LodStrips changes its strips in place from level to level.");
+    add(result_.device.empty() ? "</p>\n" : " Each strip has a colour of its own.</p>\n");
+    add("<div class=\"row\">\n");
+    for (const DemoStripLevel& level : strips.levels)
+      add_figure(level.picture, "strips, each in a colour of its own",
+                 fmt::format("<b>{}</b> triangles · {} strips", format_count(level.triangles),
+                             format_count(level.strips)));
+    const DemoStripForm& drawn = strips.forms.front();
+    add(
+        fmt::format("</div>\n<pre>varifold generate planet --triangles 40000 -o {0}\n"
+                    "varifold build lodstrips {0} -o {1}\nvarifold check {1}\n"
+                    "varifold render {1} --color strip --triangles {2} -o strips.png</pre>\n",
+                    strips.mesh_file, drawn.file, strips.levels.back().triangles));
+    add_strip_table(strips);
+  }
+
+  // What each form sends at each level, and what it takes.
+  void add_strip_table(const DemoStrips& strips) {
+    add("<table>\n<tr><th>indices a triangle</th>");
+    for (const DemoStripForm& form : strips.forms) add("<th>" + form.name + "</th>");
+    add("<th>fresh strips<br>of that level alone</th></tr>\n");
+    for (const DemoStripLevel& level : strips.levels) {
+      add(fmt::format("<tr><td>{:.0f} % · {} triangles</td>", 100 * level.share,
+                      format_count(level.triangles)));
+      for (const double indices : level.indices) add(fmt::format("<td>{:.2f}</td>", indices));
+      add(fmt::format("<td>{:.2f}</td></tr>\n", level.fresh_indices));
+    }
+    add_strip_bytes("bytes a vertex, model", &DemoStripForm::model_bytes);
+    add_strip_bytes("bytes a vertex, instance", &DemoStripForm::instance_bytes);
+    add_strip_bytes("bytes a vertex, file", &DemoStripForm::file_bytes);
+    add("<tr><td>checked</td>");
+    for (const DemoStripForm& form : strips.forms)
+      add(fmt::format("<td class=\"{}\">{}</td>", is_sound(form.faults) ? "good" : "bad",
+                      verdict(form)));
+    add("<td></td></tr>\n</table>\n<p>A restart between any two strips is counted; a list of "
+        "triangles has 3. The forms grouped and thesis send the same strips: those of the full "
+        "mesh, best there and worse on the way down. The form of blocks, the default, "
+        "grows its strips along with the splits.</p>\n");
+  }
+
+  void add_strip_bytes(const char* name, std::uint64_t DemoStripForm::*bytes) {
+    add(fmt::format("<tr><td>{}</td>", name));
+    for (const DemoStripForm& form : result_.strips.forms)
+      add(fmt::format("<td>{:.1f}</td>", per_vertex(form.*bytes, result_.strips)));
+    add("<td></td></tr>\n");
+  }
+
   void add_builds() {
     add("<h2>The numbers</h2>\n<table>\n<tr><th>model</th><th>triangles</th><th>collapses</th>"
         "<th>whole build</th><th>in memory<br>bytes a vertex</th><th>file<br>bytes a vertex</th>"
@@ -257,7 +308,8 @@ class PageWriter {
         "triangle; the error holds.</p>\n");
   }
 
-  static std::string verdict(const DemoModel& model) {
+  template <class Checked>  // a model or a form of one
+  static std::string verdict(const Checked& model) {
     if (is_sound(model.faults)) return fmt::format("sound, {} levels", model.levels_checked);
     std::string kinds;
     for (const Fault& fault : model.faults)

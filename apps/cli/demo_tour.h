@@ -2,6 +2,7 @@
 #pragma once
 
 #include <apps/cli/context.h>
+#include <apps/cli/demo_strips.h>
 #include <apps/cli/input.h>
 #include <apps/cli/picture.h>
 #include <varifold/base/result.h>
@@ -69,6 +70,7 @@ struct DemoCrowd {
 
 struct DemoResult {
   std::vector<DemoModel> models;
+  DemoStrips strips;
   std::vector<DemoPrefix> prefixes;
   std::optional<DemoCrowd> crowd;
   std::string device;  ///< what drew; empty where nothing could
