@@ -162,6 +162,9 @@ class SequenceStrips {
   [[nodiscard]] static std::uint32_t strip_begin(const Block& block, std::uint32_t place);
   [[nodiscard]] static std::uint32_t strip_end(const Block& block, std::uint32_t place);
   [[nodiscard]] std::uint32_t corner(Edge e) const { return corners_[3 * e.triangle + e.edge % 3]; }
+  [[nodiscard]] const std::uint32_t* corners_of(std::uint32_t triangle) const {
+    return corners_.data() + 3 * std::size_t{triangle};
+  }
   [[nodiscard]] std::uint32_t range_of(std::uint32_t triangle) const {
     return range_of_.empty() ? 0 : range_of_[triangle];
   }

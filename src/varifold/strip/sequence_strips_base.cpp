@@ -29,7 +29,8 @@ TriangleMesh base_mesh(const DetailedMesh& detailed, const std::vector<std::uint
     for (std::uint32_t t = first; t < first + count; ++t) {
       if (detailed.sequence.triangle_level[t] != 0) continue;
       triangles.push_back(t);
-      base.indices.insert(base.indices.end(), &corners[3 * t], &corners[3 * t] + 3);
+      const std::uint32_t* const first_corner = &corners[3 * std::size_t{t}];
+      base.indices.insert(base.indices.end(), first_corner, first_corner + 3);
     }
   };
   if (detailed.mesh.ranges.empty()) append(0, detailed.mesh.triangle_count());
@@ -60,8 +61,11 @@ void SequenceStrips::load_strips(const TriangleMesh& base,
     std::uint32_t triangle;
   };
   std::vector<Known> known;
-  for (const std::uint32_t t : triangles)
-    known.push_back({least_first({corners_[3 * t], corners_[3 * t + 1], corners_[3 * t + 2]}), t});
+  known.reserve(triangles.size());
+  for (const std::uint32_t t : triangles) {
+    const std::uint32_t* const corner = corners_of(t);
+    known.push_back({least_first({corner[0], corner[1], corner[2]}), t});
+  }
   const auto less = [](const Known& a, const Known& b) { return a.corners < b.corners; };
   std::stable_sort(known.begin(), known.end(), less);
   const auto take = [&](const Corners& corners) {

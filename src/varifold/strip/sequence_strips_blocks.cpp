@@ -80,7 +80,8 @@ bool SequenceStrips::fits_between(std::uint32_t a, std::uint32_t b, std::uint32_
   std::array<std::uint32_t, 3> wanted{a, b, c};
   std::sort(wanted.begin(), wanted.end());
   return std::any_of(unplaced_.begin(), unplaced_.end(), [&](std::uint32_t t) {
-    std::array<std::uint32_t, 3> has{corners_[3 * t], corners_[3 * t + 1], corners_[3 * t + 2]};
+    std::array<std::uint32_t, 3> has{};
+    std::copy_n(corners_of(t), 3, has.begin());
     std::sort(has.begin(), has.end());
     return has == wanted;
   });
@@ -109,7 +110,7 @@ std::uint32_t SequenceStrips::claim_new_triangles(std::uint32_t b) {
         is_degenerate(corners))
       continue;
     const auto found = std::find_if(unplaced_.begin(), unplaced_.end(), [&](std::uint32_t t) {
-      return same_triangle(corners, &corners_[3 * t]);
+      return same_triangle(corners, corners_of(t));
     });
     if (found == unplaced_.end()) return i;
     set_triangle(b, i, *found);

@@ -149,7 +149,7 @@ std::uint32_t SequenceStrips::block_for(std::uint32_t triangle) {
 void SequenceStrips::open(std::uint32_t triangle) {
   const std::uint32_t b = block_for(triangle);
   const auto end = static_cast<std::uint8_t>(blocks_[b].count);
-  const std::uint32_t* const corners = &corners_[3 * triangle];
+  const std::uint32_t* const corners = corners_of(triangle);
   const std::uint32_t first = first_[triangle] == kAnyCorner ? 0 : first_[triangle];
   const std::array<std::uint32_t, 3> slots{corners[first], corners[(first + 1) % 3],
                                            corners[(first + 2) % 3]};

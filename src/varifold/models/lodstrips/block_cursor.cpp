@@ -117,7 +117,7 @@ BlockCursor::Place BlockCursor::place(std::uint32_t block) {
 BlockCursor::BlockCursor(const BlockForm& form, const LevelTable& levels,
                          const TriangleMesh& attributes, StripBuffer buffer)
     : form_(form), levels_(levels), buffer_(buffer), vertex_count_(levels.vertex_count(0)) {
-  slots_.assign(std::size_t{form.buffer_size} + 2 * kChunk, kStripRestart);
+  slots_.assign(form.buffer_size + std::size_t{2} * kChunk, kStripRestart);
   changed_slots_.reset(form.buffer_size);
   counts_.assign(form.first.size(), 0);
   const std::uint32_t* from = form.base_slots.data();
@@ -178,7 +178,7 @@ void BlockCursor::split_once() {
 
 template <std::uint32_t kWordBytes>
 void BlockCursor::collapse_once() {
-  constexpr auto format = [] { return blocks::WordFormat(kWordBytes); };
+  const blocks::WordFormat format(kWordBytes);
   --level_;
   vertex_count_ -= levels_.step(level_).vertices;
   const std::uint32_t size = form_.size_of_step(level_);
@@ -191,11 +191,11 @@ void BlockCursor::collapse_once() {
     std::size_t count = 0;
     for (const std::uint8_t* at = begin; at < limit;) {
       groups[count++ % kMost] = at;
-      at = blocks::Group(at, format()).end(at + kWordBytes);
+      at = blocks::Group(at, format).end(at + kWordBytes);
     }
     for (std::size_t i = 0; i < std::min(count, kMost); ++i) {
       limit = groups[(count - 1 - i) % kMost];
-      undo_group(blocks::Group(limit, format()), limit + kWordBytes);
+      undo_group(blocks::Group(limit, format), limit + kWordBytes);
     }
   }
 }

@@ -1,10 +1,8 @@
 // The third form of LodStrips: strips built from coarse to fine, in blocks of 64 slots.
 //
 // Based on: [Ramos2008] chapters 4 and 5: strips, changes of strips per level, one element buffer.
-// Differs: strips come from strip/sequence_strips.h, so that they are as long as fresh ones at
-// every
-//   level; a change is a byte or two that says where in a block; undoing one needs no stored
-//   values.
+// Differs: strips come from strip/sequence_strips.h and grow with the level; a change is a byte or
+//   two that says where in a block; undoing one needs no stored values.
 #pragma once
 
 #include <varifold/base/result.h>
