@@ -60,6 +60,11 @@ struct StripsBuild<LodStrips> {
     options.stripifier.max_indices = kStaticStripIndices;
     add_stripifier_options(command, options.stripifier);
   }
+  static void check_options(const Options& options) {
+    const StripifierOptions usual{.max_indices = kStaticStripIndices};
+    if (options.form == "blocks" && options.stripifier != usual)
+      wrong_usage("--form blocks makes its own strips: a stripifier is for grouped and thesis");
+  }
   static LodStrips build(const DetailedMesh& detailed, const Options& options) {
     if (options.form == "blocks") return build_lod_strips(detailed);
     const auto form = options.form == "grouped" ? LodStripsForm::kGrouped : LodStripsForm::kThesis;
@@ -90,6 +95,8 @@ struct StripsCommand {
 template <class Model>
 CommandResult run_build(const StripsCommand<Model>& command) {
   const auto input = input_path(command.build.input), output = output_path(command.build.output);
+  if constexpr (requires { StripsBuild<Model>::check_options(command.own); })
+    StripsBuild<Model>::check_options(command.own);
   if (command.build.flags.placement == "optimal")
     wrong_usage("--placement optimal: strips name vertices, they do not move them; use kept");
   if (auto writable = check_output(output, command.build.common); !writable)
@@ -111,6 +118,8 @@ CommandResult run_build(const StripsCommand<Model>& command) {
 
   Report report;
   report_model(*model, *file, simplified->faults, report);
+  if constexpr (requires { model->form_kind(); })
+    report.text("form", "form", std::string(form_name(model->form_kind())));
   report_strips(model, report);
   report_stop(simplified->stop, input, report);
   times.all = watch.seconds();

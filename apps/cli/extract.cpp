@@ -28,24 +28,27 @@ CommandResult extract_from(const ExtractCommand& command, const std::shared_ptr<
   const auto output = output_path(command.output);
   std::optional<Camera> camera;
   if (command.has_view) camera = make_camera(command.view, model->attributes().positions);
-  const ChosenLevel chosen = choose_level(*model, command.level, camera ? &*camera : nullptr);
-  warn_of_base(command, model->triangle_count(0));
   InstanceOf<Model> instance(model);
-  instance.go_to_level(chosen.level);
+  const ChosenLevel chosen =
+      go_to_choice<Model>(instance, command.level, camera ? &*camera : nullptr,
+                          asks_for_view(command.view, command.level));
+  warn_of_base(command, model->triangle_count(0));
   const TriangleMesh mesh = without_unused_vertices(instance.extract());
   if (auto written = write_mesh_loudly(mesh, output); !written)
     return tl::unexpected(written.error());
 
   Report report;
   report.text("kind", "kind", ModelKind<Model>::kName);
-  report.count("level", "level", chosen.level);
-  report.count("finest_level", "of", model->finest_level());
+  if (!chosen.is_front) {
+    report.count("level", "level", chosen.level);
+    report.count("finest_level", "of", model->finest_level());
+  }
   report.count("vertices", "vertices", mesh.vertex_count());
   report.count("triangles", "triangles", mesh.triangle_count());
-  report.length("error", "error", model->error(chosen.level));
+  if (!chosen.is_front) report.length("error", "error", model->error(chosen.level));
   if (camera) {
     report.length("pixel_error", "error in pixels", chosen.pixel_error);
-    report.set("forced_splits", 0);  // a uniform model has none
+    report.count("forced_splits", "forced splits", chosen.forced_splits);
   }
   report.seconds("seconds", "time", watch.seconds());
   return finish(report, command.common, output);

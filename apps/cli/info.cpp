@@ -140,6 +140,8 @@ void report_model(const Model& model, Report& report) {
   const std::uint32_t finest = model.finest_level();
   report.text("type", "type", "model");
   report.text("kind", "kind", ModelKind<Model>::kName);
+  if constexpr (requires { model.form_kind(); })
+    report.text("form", "form", std::string(form_name(model.form_kind())));
   report.count("vertices", "vertices", mesh.vertex_count());
   report.count("triangles", "triangles", model.triangle_count(finest));
   report.count("base_vertices", "base vertices", model.vertex_count(0));

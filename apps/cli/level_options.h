@@ -1,6 +1,7 @@
 // Which level of a model, seen from where: the LEVEL of the command line.
 #pragma once
 
+#include <varifold/io/any_model.h>
 #include <varifold/models/common/uniform_model.h>
 #include <varifold/view/camera.h>
 #include <CLI/CLI.hpp>
@@ -42,6 +43,8 @@ void check_level_options(const LevelOptions& options);
 struct ChosenLevel {
   std::uint32_t level = 0;
   float pixel_error = 0;  ///< of the level, where there is a camera
+  bool is_front = false;  ///< levels differ from place to place; `level` says nothing
+  std::uint32_t forced_splits = 0, triangles = 0;
 };
 
 /// The level that is asked for: the finest where none is.
@@ -65,6 +68,31 @@ template <UniformModel Model>
     chosen.level = std::min(chosen.level, model.level_for_error(error));
   }
   chosen.pixel_error = scale.pixels_of(model.error(chosen.level), nearest);
+  return chosen;
+}
+
+/// Whether levels may follow the view: a camera was placed, or pixels were asked for.
+[[nodiscard]] inline bool asks_for_view(const ViewOptions& view, const LevelOptions& level) {
+  return level.pixels || (view.eye && level.triangles);
+}
+
+/// Takes an instance to what is asked for: a level, or, for models whose levels may differ from
+/// place to place, the front for a view.
+template <class Model>
+[[nodiscard]] ChosenLevel go_to_choice(InstanceOf<Model>& instance, const LevelOptions& options,
+                                       const Camera* camera, bool by_view) {
+  const Model& model = instance.model();
+  if constexpr (FollowsView<Model>) {
+    if (camera && by_view) {
+      const auto front = ModelKind<Model>::adapt_to_view(
+          instance, *camera, static_cast<float>(options.pixels.value_or(0)),
+          options.triangles.value_or(kNone));
+      return {0, front.tolerance, true, front.forced_splits, front.triangles};
+    }
+  }
+  ChosenLevel chosen = choose_level(model, options, camera);
+  instance.go_to_level(chosen.level);
+  chosen.triangles = model.triangle_count(chosen.level);
   return chosen;
 }
 

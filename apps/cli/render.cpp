@@ -90,15 +90,16 @@ CommandResult render_level(const RenderCommand& command, const std::shared_ptr<c
                            Report& report) {
   const TriangleMesh& full = model->attributes();
   const Camera camera = make_camera(command.view, full.positions);
-  const ChosenLevel chosen = choose_level(*model, command.level, &camera);
   InstanceOf<Model> instance(model);
-  instance.go_to_level(chosen.level);
+  const ChosenLevel chosen = go_to_choice<Model>(instance, command.level, &camera,
+                                                 asks_for_view(command.view, command.level));
   report.text("kind", "kind", ModelKind<Model>::kName);
-  report.count("level", "level", chosen.level);
-  report.length("error", "error", model->error(chosen.level));
+  if (!chosen.is_front) {
+    report.count("level", "level", chosen.level);
+    report.length("error", "error", model->error(chosen.level));
+  }
   report.length("pixel_error", "error in pixels", chosen.pixel_error);
-  return render_scene(command, {instance.draw_list(), &full, model->triangle_count(chosen.level)},
-                      report);
+  return render_scene(command, {instance.draw_list(), &full, chosen.triangles}, report);
 }
 
 CommandResult render_model(const RenderCommand& command, const std::filesystem::path& input,

@@ -20,7 +20,10 @@ void add_stripifier_options(CLI::App& command, StripifierOptions& options) {
   command
       .add_option("--max-indices", options.max_indices,
                   "No strip is longer, since long ones are slow to change; 0: no limit")
-      ->check(CLI::Range(0u, 1000000u))
+      ->check([](const std::string& text) {
+        const bool small = text == "1" || text == "2" || text == "3";
+        return small ? std::string("a strip needs at least 4") : std::string();
+      })
       ->capture_default_str()
       ->type_name("N");
 }

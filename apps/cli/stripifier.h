@@ -13,6 +13,7 @@ struct StripifierOptions {
   std::string name = "length";
   std::uint32_t cache_size = 16;
   std::uint32_t max_indices = 0;  ///< of a strip; 0: no limit
+  friend bool operator==(const StripifierOptions&, const StripifierOptions&) = default;
 };
 void add_stripifier_options(CLI::App& command, StripifierOptions& options);
 

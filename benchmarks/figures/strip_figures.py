@@ -30,7 +30,7 @@ MODELS = {
     "LodStrips, blocks": ["lodstrips", "--form", "blocks"],
 }
 THESIS = {
-    "3.1": {  # MB of progressive mesh, MTS, framework
+    "3.1": {  # "MB" of progressive mesh, MTS, framework
         "cow": (0.27, 0.25, 0.39),
         "bunny": (3.28, 2.96, 3.56),
         "phone": (7.86, 6.76, 8.10),
@@ -56,7 +56,7 @@ THESIS = {
     },
     "5.2": (16.38, 1.64, 1.22),  # s: immediate mode, a call per strip, one call
 }
-MB = 1024 * 1024
+MIB = 1024 * 1024
 
 
 class Runner:
@@ -243,7 +243,7 @@ def table_3_1(runner):
         cells = []
         for number, model in enumerate(("progressive mesh", "MTS", "framework")):
             report = runner.build(mesh, model)[1]
-            cell = f"{report['model_bytes'] / MB:.2f}"
+            cell = f"{report['model_bytes'] / MIB:.2f}"
             if mesh in THESIS["3.1"]:
                 cell += f" ({THESIS['3.1'][mesh][number]:.2f})"
             cells.append(cell)
@@ -296,9 +296,9 @@ def table_4_3(runner):
         reports = {form: runner.build(mesh, f"LodStrips, {form}")[1]
                    for form in ("thesis", "grouped", "blocks")}
         one = reports["thesis"]
-        sizes = {form: report["model_bytes"] / MB for form, report in reports.items()}
+        sizes = {form: report["model_bytes"] / MIB for form, report in reports.items()}
         # Table 4.1: positions and an indexed list, three words each.
-        listed = 12 * (one["vertices"] + one["triangles"]) / MB
+        listed = 12 * (one["vertices"] + one["triangles"]) / MIB
         was = THESIS["4.3"].get(mesh)
         note = (lambda text: f" ({text})") if was else (lambda text: "")
         saved = 100 * (1 - sizes["grouped"] / sizes["thesis"])
@@ -340,11 +340,11 @@ def main():
         filter_charts(runner, out)
         cache_chart(runner, out)
         tables = [
-            ("Table 3.1: memory in MB", table_3_1(runner)),
+            ("Table 3.1: memory in MiB", table_3_1(runner)),
             ("Table 3.2: linear test of 100 levels, a call per strip: time per level, and the "
              "share of extraction", table_3_2(runner)),
             ("Table 4.2: linear tests on the bunny", table_4_2(runner)),
-            ("Tables 4.1, 4.3 and 5.1: memory in MB", table_4_3(runner)),
+            ("Tables 4.1, 4.3 and 5.1: memory in MiB", table_4_3(runner)),
             ("Figure 4.8: share of extraction in a linear test of 200 levels (bunny: 1,000), one call",
              share_chart(runner, out)),
             ("Table 5.2: linear test of 1,000 levels", table_5_2(runner)),

@@ -53,6 +53,24 @@ class Models : public ::testing::TestWithParam<const char*> {
   TemporaryFolder folder_;
 };
 
+// What single kinds have beyond the others.
+class StripModels : public ::testing::Test {
+ protected:
+  [[nodiscard]] std::string path(const std::string& name) const { return folder_.file(name); }
+  json make(const std::string& kind, const std::vector<std::string>& more) const {
+    EXPECT_EQ(
+        run_tool({"generate", "planet", "--triangles", "6000", "-o", path("m.glb")}).exit_code, 0);
+    std::vector<std::string> arguments = {"build", kind,          path("m.glb"),
+                                          "-o",    path("m.vfm"), "--json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ToolResult result = run_tool(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return result.json();
+  }
+
+  TemporaryFolder folder_;
+};
+
 TEST_P(Models, BuildHasTheKeysOfTheContract) {
   const json told = make_model();
   for (const char* key :
@@ -209,6 +227,52 @@ TEST_P(Models, TinyMeshesWorkOrSayWhyNot) {
   const ToolResult none = run_tool({"build", kind(), path("none.obj"), "-o", path("n.vfm")});
   EXPECT_EQ(none.exit_code, 3);
   EXPECT_EQ(lines_of(none.err).size(), 1u) << none.err;
+}
+
+// Fronts: within the pixels, in the budget, closed, and coarser than the level that the same view
+// asks for.
+TEST_F(StripModels, ViewsTakeFrontsFromTheFramework) {
+  make("strips", {});
+  const std::vector<std::string> view = {"--eye", "1.6,0,0", "--target", "0,0,0", "--pixels", "2"};
+  const auto extract = [&](const std::string& model, std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"extract", path(model), "-o", path("front.ply"),
+                                          "--json"};
+    arguments.insert(arguments.end(), view.begin(), view.end());
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ToolResult result = run_tool(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return result.json();
+  };
+  const json front = extract("m.vfm", {});
+  EXPECT_FALSE(front.contains("level"));
+  EXPECT_LE(front["pixel_error"].get<double>(), 2);
+  EXPECT_GT(front["forced_splits"].get<int>(), 0);
+  EXPECT_EQ(run_tool({"check", path("front.ply"), "--closed"}).exit_code, 0);
+  const json budget = extract("m.vfm", {"--triangles", "500"});
+  EXPECT_LE(budget["triangles"].get<int>(), 500);
+  EXPECT_GT(budget["pixel_error"].get<double>(), 2);
+  make("lodstrips", {});
+  const json level = extract("m.vfm", {});
+  EXPECT_GT(level["triangles"].get<int>(), front["triangles"].get<int>());
+  EXPECT_EQ(level["forced_splits"], 0);
+}
+
+TEST_F(StripModels, FormsOfLodStrips) {
+  const json blocks = make("lodstrips", {});
+  const json grouped = make("lodstrips", {"--form", "grouped", "--stripifier", "cache"});
+  const json thesis = make("lodstrips", {"--form", "thesis", "--stripifier", "sequence"});
+  EXPECT_EQ(blocks["form"], "blocks");
+  EXPECT_EQ(grouped["form"], "grouped");
+  EXPECT_EQ(thesis["form"], "thesis");
+  EXPECT_LT(blocks["model_bytes"].get<int>(), grouped["model_bytes"].get<int>());
+  EXPECT_LT(grouped["model_bytes"].get<int>(), thesis["model_bytes"].get<int>());
+  EXPECT_EQ(run_tool({"check", path("m.vfm")}).exit_code, 0);
+  for (const std::vector<std::string>& wrong :
+       std::vector<std::vector<std::string>>{{"--stripifier", "cache"}, {"--max-indices", "3"}}) {
+    std::vector<std::string> arguments = {"build", "lodstrips", path("m.glb"), "-o", path("x.vfm")};
+    arguments.insert(arguments.end(), wrong.begin(), wrong.end());
+    EXPECT_EQ(run_tool(arguments).exit_code, 2);
+  }
 }
 
 TEST_P(Models, CutAndDamagedModels) {

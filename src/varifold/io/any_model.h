@@ -89,6 +89,14 @@ struct ModelKind<StripFramework> {
     criteria.plane = Plane{normal, -glm::dot(normal, point)};
     instance.adapt(criteria);
   }
+  /// The front that a camera asks for: within `pixels` of error where it sees the surface, as coarse
+  /// as can be elsewhere, and at most so many triangles.
+  static FrontStatistics adapt_to_view(Instance& instance, const Camera& camera, float pixels,
+                                       std::uint32_t max_triangles) {
+    RefineCriteria criteria;
+    criteria.view.emplace(camera);
+    return instance.adapt(criteria, {pixels, max_triangles});
+  }
 };
 
 template <class... Models>
@@ -108,6 +116,12 @@ using AnyModel = AllModels::Any;
 
 template <class Model>
 using InstanceOf = typename ModelKind<Model>::Instance;
+
+/// Kinds whose levels may differ from place to place.
+template <class Model>
+concept FollowsView = requires(InstanceOf<Model>& instance, const Camera& camera) {
+  ModelKind<Model>::adapt_to_view(instance, camera, 1.0f, 1u);
+};
 
 /// As on the command line and in JSON: "pm", "mts", ...
 [[nodiscard]] std::string kind_name(const AnyModel& model);

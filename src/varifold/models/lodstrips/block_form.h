@@ -75,8 +75,8 @@ class BlockCursor {
 
   [[nodiscard]] std::uint32_t level() const { return level_; }
   void go_to_level(std::uint32_t level);
-  /// Sets the indices, ranges and changed indices of a list. O(blocks); with kCompact O(level)
-  /// after a change.
+  /// Sets the indices, ranges and changed indices of a list. After a change O(blocks), with
+  /// kCompact O(materials x blocks + level).
   void fill(DrawList& list);
   /// The index buffer of the blocks; what is in no block is kStripRestart. Depends on the level
   /// alone.

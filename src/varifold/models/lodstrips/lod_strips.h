@@ -114,7 +114,7 @@ class LodStripsInstance {
   /// function. Valid until the next go_to_level().
   [[nodiscard]] DrawList draw_list();
 
-  /// A copy of the level as a mesh of its own, with materials. O(level).
+  /// A copy of the level as a mesh of its own, with materials. O(size of the instance).
   [[nodiscard]] TriangleMesh extract() const;
 
   /// Memory of the instance alone.
