@@ -38,7 +38,7 @@ count simplify 'varifold::simplify(*const&)'
 count measure_deviation 'varifold::measure_deviation(*const&)'
 count build_progressive_mesh 'varifold::build_progressive_mesh(*const&)'
 count go_to_level 'varifold::ProgressiveMeshInstance::go_to_level(unsigned int)'
-count build_lod_strips 'varifold::build_lod_strips(*const&)'
+count build_block_form 'varifold::build_block_form(*)'
 count lod_strips_go_to_level 'varifold::LodStripsInstance::go_to_level(unsigned int)'
 [ "$compiler" = "$known" ] || echo "$counts is of another compiler: ${known:-none}"
 if [ "$mode" = update ]; then

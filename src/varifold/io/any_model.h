@@ -89,8 +89,8 @@ struct ModelKind<StripFramework> {
     criteria.plane = Plane{normal, -glm::dot(normal, point)};
     instance.adapt(criteria);
   }
-  /// The front that a camera asks for: within `pixels` of error where it sees the surface, as coarse
-  /// as can be elsewhere, and at most so many triangles.
+  /// The front that a camera asks for: within `pixels` of error where it sees the surface, as
+  /// coarse as can be elsewhere, and at most so many triangles.
   static FrontStatistics adapt_to_view(Instance& instance, const Camera& camera, float pixels,
                                        std::uint32_t max_triangles) {
     RefineCriteria criteria;
