@@ -12,6 +12,7 @@ struct ExtractCommand {
   CommonOptions common;
   LevelOptions level;
   ViewOptions view;
+  PlaceOptions places;
   bool has_view = false;
   std::string input, output;
 };
@@ -30,7 +31,7 @@ CommandResult extract_from(const ExtractCommand& command, const std::shared_ptr<
   if (command.has_view) camera = make_camera(command.view, model->attributes().positions);
   InstanceOf<Model> instance(model);
   const ChosenLevel chosen =
-      go_to_choice<Model>(instance, command.level, camera ? &*camera : nullptr,
+      go_to_choice<Model>(instance, command.level, command.places, camera ? &*camera : nullptr,
                           asks_for_view(command.view, command.level));
   warn_of_base(command, model->triangle_count(0));
   const TriangleMesh mesh = without_unused_vertices(instance.extract());
@@ -74,12 +75,13 @@ void add_extract(CLI::App& app, CommandRunner& runner) {
       ->type_name("MODEL");
   add_level_options(*command, options->level);
   add_view_options(*command, options->view);
+  add_place_options(*command, options->places);
   command->add_option("-o,--output", options->output, "The mesh file: .ply, .obj or .glb")
       ->required()
       ->type_name("MESH");
   runner.add_common(*command, options->common, false);
   runner.attach(*command, options->common, [options] {
-    if (options->level.empty())
+    if (options->level.empty() && options->places.empty())
       wrong_usage("a LEVEL is needed: --lod, --triangles, --vertices, --error or --pixels");
     check_level_options(options->level);
     options->has_view = options->view.eye || options->level.pixels;

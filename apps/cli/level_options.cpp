@@ -12,15 +12,17 @@ namespace varifold::cli {
 
 namespace {
 
-// Three numbers with commas between; nothing else.
-std::optional<Vec3> parse_point(std::string_view text) {
-  Vec3 point{0};
-  for (int axis = 0; axis < 3; ++axis) {
+// So many numbers as the vector has, with commas between; nothing else.
+template <class Vector>
+std::optional<Vector> parse_vector(std::string_view text) {
+  constexpr int kLength = Vector::length();
+  Vector point{0};
+  for (int axis = 0; axis < kLength; ++axis) {
     const char* const end = text.data() + text.size();
     const auto [next, error] = std::from_chars(text.data(), end, point[axis]);
     if (error != std::errc() || !std::isfinite(point[axis])) return std::nullopt;
     text = {next, static_cast<std::size_t>(end - next)};
-    if (axis == 2) break;
+    if (axis + 1 == kLength) break;
     if (!text.starts_with(',')) return std::nullopt;
     text.remove_prefix(1);
   }
@@ -40,19 +42,25 @@ std::optional<std::pair<int, int>> parse_size(std::string_view text) {
   return is_size ? std::optional(size) : std::nullopt;
 }
 
+template <class Vector, class Set>
+CLI::Option* add_vector(CLI::App& command, const std::string& name, const std::string& form,
+                        const std::string& help, const Set& set) {
+  return command
+      .add_option_function<std::string>(
+          name,
+          [name, form, set](const std::string& text) {
+            const auto vector = parse_vector<Vector>(text);
+            if (!vector) wrong_usage(name + ": '" + text + "' is not of the form " + form);
+            set(*vector);
+          },
+          help)
+      ->type_name(form);
+}
+
 template <class Set>
 void add_point(CLI::App& command, const std::string& name, const std::string& help,
                const Set& set) {
-  command
-      .add_option_function<std::string>(
-          name,
-          [name, set](const std::string& text) {
-            const auto point = parse_point(text);
-            if (!point) wrong_usage(name + ": '" + text + "' is not a point x,y,z");
-            set(*point);
-          },
-          help)
-      ->type_name("X,Y,Z");
+  add_vector<Vec3>(command, name, "X,Y,Z", help, set);
 }
 
 }  // namespace
@@ -87,6 +95,39 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
       ->check(CLI::Range(-90.0, 90.0))
       ->capture_default_str()
       ->type_name("DEGREES");
+}
+
+void add_place_options(CLI::App& command, PlaceOptions& options) {
+  const std::string group = "PLACES (models of kind strips)";
+  add_vector<Vec4>(command, "--sphere", "X,Y,Z,R", "Full detail in this ball", [&](const Vec4& s) {
+    options.sphere = s;
+  })->group(group);
+  add_vector<Vec4>(command, "--plane", "A,B,C,D", "Full detail where Ax + By + Cz + D >= 0",
+                   [&](const Vec4& p) { options.plane = p; })
+      ->group(group);
+  add_vector<Vec3>(command, "--light", "X,Y,Z",
+                   "Direction to a light: less detail where its shading hardly changes",
+                   [&](const Vec3& l) { options.light = l; })
+      ->group(group);
+}
+
+RefineCriteria make_criteria(const PlaceOptions& places, const Camera* camera) {
+  RefineCriteria criteria;
+  if (camera) criteria.view.emplace(*camera);
+  if (places.light && criteria.view) {
+    criteria.view->light.emplace();
+    criteria.view->light->to_light = normalize_or_zero(*places.light);
+  }
+  if (places.sphere) {
+    if (places.sphere->w < 0) wrong_usage("--sphere: the radius is negative");
+    criteria.sphere = Sphere{Vec3(*places.sphere), places.sphere->w};
+  }
+  if (places.plane) {
+    const float length = glm::length(Vec3(*places.plane));
+    if (!(length > 0)) wrong_usage("--plane: the normal is zero");
+    criteria.plane = Plane{Vec3(*places.plane) / length, places.plane->w / length};
+  }
+  return criteria;
 }
 
 Camera make_camera(const ViewOptions& options, std::span<const Vec3> points) {

@@ -4,11 +4,13 @@
 #include <varifold/io/any_model.h>
 #include <varifold/models/common/uniform_model.h>
 #include <varifold/view/camera.h>
+#include <varifold/view/criteria.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 
 namespace varifold::cli {
 
@@ -26,6 +28,18 @@ void add_view_options(CLI::App& command, ViewOptions& options);
 
 /// The camera; frames `points` where no eye is given. Wrong usage where it cannot see.
 [[nodiscard]] Camera make_camera(const ViewOptions& options, std::span<const Vec3> points);
+
+/// Where the user wants detail, beside the view.
+struct PlaceOptions {
+  std::optional<Vec4> sphere;  ///< center and radius
+  std::optional<Vec4> plane;   ///< a x + b y + c z + d >= 0
+  std::optional<Vec3> light;   ///< direction; with a view
+
+  [[nodiscard]] bool empty() const { return !sphere && !plane && !light; }
+};
+void add_place_options(CLI::App& command, PlaceOptions& options);
+/// The camera, where there is one, and the places. Wrong usage where a place is none.
+[[nodiscard]] RefineCriteria make_criteria(const PlaceOptions& places, const Camera* camera);
 
 struct LevelOptions {
   std::optional<double> lod, error, pixels;
@@ -77,18 +91,23 @@ template <UniformModel Model>
 }
 
 /// Takes an instance to what is asked for: a level, or, for models whose levels may differ from
-/// place to place, the front for a view.
+/// place to place, the front that the places and, if `by_view`, the camera ask for.
 template <class Model>
 [[nodiscard]] ChosenLevel go_to_choice(InstanceOf<Model>& instance, const LevelOptions& options,
-                                       const Camera* camera, bool by_view) {
+                                       const PlaceOptions& places, const Camera* camera,
+                                       bool by_view) {
   const Model& model = instance.model();
-  if constexpr (FollowsView<Model>) {
-    if (camera && by_view) {
-      const auto front = ModelKind<Model>::adapt_to_view(
-          instance, *camera, static_cast<float>(options.pixels.value_or(0)),
-          options.triangles.value_or(kNone));
+  by_view = by_view && camera;
+  if constexpr (HasFronts<Model>) {
+    if (by_view || !places.empty()) {
+      const auto front = ModelKind<Model>::adapt(
+          instance, make_criteria(places, by_view ? camera : nullptr),
+          static_cast<float>(options.pixels.value_or(0)), options.triangles.value_or(kNone));
       return {0, front.tolerance, true, front.forced_splits, front.triangles};
     }
+  } else if (!places.empty()) {
+    wrong_usage(std::string("--sphere, --plane and --light are for models of kind strips, not ") +
+                ModelKind<Model>::kName);
   }
   ChosenLevel chosen = choose_level(model, options, camera);
   instance.go_to_level(chosen.level);

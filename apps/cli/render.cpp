@@ -15,6 +15,7 @@ struct RenderCommand {
   CommonOptions common;
   LevelOptions level;
   ViewOptions view;
+  PlaceOptions places;
   std::string input, output, color = "auto";
   bool flat = false, wireframe = false, cull = false, no_occlusion = false;
   float wire_width = 1;
@@ -91,7 +92,7 @@ CommandResult render_level(const RenderCommand& command, const std::shared_ptr<c
   const TriangleMesh& full = model->attributes();
   const Camera camera = make_camera(command.view, full.positions);
   InstanceOf<Model> instance(model);
-  const ChosenLevel chosen = go_to_choice<Model>(instance, command.level, &camera,
+  const ChosenLevel chosen = go_to_choice<Model>(instance, command.level, command.places, &camera,
                                                  asks_for_view(command.view, command.level));
   report.text("kind", "kind", ModelKind<Model>::kName);
   if (!chosen.is_front) {
@@ -135,6 +136,7 @@ void add_render(CLI::App& app, CommandRunner& runner) {
       ->type_name("IMAGE");
   add_level_options(*command, options->level);
   add_view_options(*command, options->view);
+  add_place_options(*command, options->places);
   command->add_flag("--flat", options->flat, "Shade every triangle by its own normal");
   command->add_flag("--wireframe", options->wireframe, "Draw the edges over the shading");
   command->add_option("--wire-width", options->wire_width, "In pixels")

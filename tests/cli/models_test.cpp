@@ -251,7 +251,21 @@ TEST_F(StripModels, ViewsTakeFrontsFromTheFramework) {
   const json budget = extract("m.vfm", {"--triangles", "500"});
   EXPECT_LE(budget["triangles"].get<int>(), 500);
   EXPECT_GT(budget["pixel_error"].get<double>(), 2);
+  // The same view with a light asks for less; a ball on the far side for more.
+  const json lit = extract("m.vfm", {"--light", "0,1,0"});
+  EXPECT_LT(lit["triangles"].get<int>(), front["triangles"].get<int>());
+  const json ball = extract("m.vfm", {"--sphere", "-1,0,0,0.3"});
+  EXPECT_GT(ball["triangles"].get<int>(), front["triangles"].get<int>());
+  const ToolResult side =
+      run_tool({"extract", path("m.vfm"), "--plane", "1,0,0,0", "-o", path("side.ply"), "--json"});
+  EXPECT_EQ(side.exit_code, 0) << side.err;
+  EXPECT_GT(side.json()["triangles"].get<int>(), 2500);
+  EXPECT_LT(side.json()["triangles"].get<int>(), 4500);
+  EXPECT_EQ(run_tool({"check", path("side.ply"), "--closed"}).exit_code, 0);
   make("lodstrips", {});
+  EXPECT_EQ(
+      run_tool({"extract", path("m.vfm"), "--plane", "1,0,0,0", "-o", path("side.ply")}).exit_code,
+      2);
   const json level = extract("m.vfm", {});
   EXPECT_GT(level["triangles"].get<int>(), front["triangles"].get<int>());
   EXPECT_EQ(level["forced_splits"], 0);

@@ -89,12 +89,10 @@ struct ModelKind<StripFramework> {
     criteria.plane = Plane{normal, -glm::dot(normal, point)};
     instance.adapt(criteria);
   }
-  /// The front that a camera asks for: within `pixels` of error where it sees the surface, as
+  /// The front that is asked for: within `pixels` of error where a camera sees the surface, as
   /// coarse as can be elsewhere, and at most so many triangles.
-  static FrontStatistics adapt_to_view(Instance& instance, const Camera& camera, float pixels,
-                                       std::uint32_t max_triangles) {
-    RefineCriteria criteria;
-    criteria.view.emplace(camera);
+  static FrontStatistics adapt(Instance& instance, const RefineCriteria& criteria, float pixels,
+                               std::uint32_t max_triangles) {
     return instance.adapt(criteria, {pixels, max_triangles});
   }
 };
@@ -119,8 +117,8 @@ using InstanceOf = typename ModelKind<Model>::Instance;
 
 /// Kinds whose levels may differ from place to place.
 template <class Model>
-concept FollowsView = requires(InstanceOf<Model>& instance, const Camera& camera) {
-  ModelKind<Model>::adapt_to_view(instance, camera, 1.0f, 1u);
+concept HasFronts = requires(InstanceOf<Model>& instance, const RefineCriteria& criteria) {
+  ModelKind<Model>::adapt(instance, criteria, 1.0f, 1u);
 };
 
 /// As on the command line and in JSON: "pm", "mts", ...
