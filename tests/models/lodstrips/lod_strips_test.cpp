@@ -1,4 +1,5 @@
 #include <tests/models/level_checks.h>
+#include <tests/support/count_allocations.h>
 #include <tests/support/meshes.h>
 #include <tests/support/test_files.h>
 
@@ -127,6 +128,22 @@ TEST(LodStripsModel, ChangedRangesAreEnoughForADevice) {
         device.take(list);
         device.expect_same(list, strips.name);
       }
+    }
+  }
+}
+
+TEST(LodStripsModel, ChangingLevelsAllocatesNothing) {
+  Random random(13);
+  for (const NamedStrips& strips : all_models()) {
+    for (const StripBuffer buffer : {StripBuffer::kInPlace, StripBuffer::kCompact}) {
+      LodStripsInstance instance(strips.model, buffer);
+      const std::size_t before = allocations;
+      std::size_t drawn = 0;
+      for (int i = 0; i < 6; ++i) {
+        instance.go_to_level(random.below(strips.model->finest_level() + 1));
+        drawn += instance.draw_list().ranges.size();
+      }
+      EXPECT_EQ(allocations, before) << strips.name << ", " << drawn << " ranges";
     }
   }
 }

@@ -1,27 +1,9 @@
 #include <gtest/gtest.h>
 #include <tests/models/mts/mts_support.h>
+#include <tests/support/count_allocations.h>
 
 #include <varifold/base/random.h>
 #include <varifold/mesh/generators.h>
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
-namespace {
-std::atomic<std::size_t> allocations{0};
-}  // namespace
-
-// Counts allocations of this program, for the tests that allow none.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size > 0 ? size : 1)) return memory;
-  std::abort();
-}
-[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  return operator new(size);
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace varifold::test {
 namespace {

@@ -6,6 +6,7 @@
 
 #include <varifold/base/result.h>
 #include <varifold/mesh/triangle_mesh.h>
+#include <varifold/models/common/level_queries.h>
 #include <varifold/models/common/level_table.h>
 #include <varifold/models/lodstrips/block_form.h>
 #include <varifold/models/lodstrips/grouped_cursor.h>
@@ -37,7 +38,7 @@ inline constexpr std::array<LodStripsForm, 3> kLodStripsForms = {
 [[nodiscard]] std::string_view form_name(LodStripsForm form);
 
 /// Immutable, shared by any number of instances and threads.
-class LodStrips {
+class LodStrips : public LevelQueries<LodStrips> {
  public:
   using Form = std::variant<BlockForm, GroupedForm, ThesisForm>;  // as LodStripsForm
 
@@ -53,31 +54,6 @@ class LodStrips {
   }
   /// The vertex attributes at full detail, the materials of the ranges and images.
   [[nodiscard]] const TriangleMesh& attributes() const { return attributes_; }
-
-  /// Levels run from 0, the base, to this, full detail. See LevelTable for these.
-  [[nodiscard]] std::uint32_t finest_level() const { return levels_.finest_level(); }
-  [[nodiscard]] std::uint32_t vertex_count(std::uint32_t level) const {
-    return levels_.vertex_count(level);
-  }
-  [[nodiscard]] std::uint32_t triangle_count(std::uint32_t level) const {
-    return levels_.triangle_count(level);
-  }
-  [[nodiscard]] float error(std::uint32_t level) const { return levels_.error(level); }
-  [[nodiscard]] std::uint32_t level_for_triangles(std::uint32_t count) const {
-    return levels_.level_for_triangles(count);
-  }
-  [[nodiscard]] std::uint32_t level_for_vertices(std::uint32_t count) const {
-    return levels_.level_for_vertices(count);
-  }
-  [[nodiscard]] std::uint32_t level_for_error(float bound) const {
-    return levels_.level_for_error(bound);
-  }
-  [[nodiscard]] std::uint32_t level_for_fraction(float fraction) const {
-    return levels_.level_for_fraction(fraction);
-  }
-  [[nodiscard]] std::uint32_t ancestor(std::uint32_t vertex, std::uint32_t level) const {
-    return levels_.ancestor(vertex, level);
-  }
 
   /// Memory of all arrays but images; vertices included.
   [[nodiscard]] std::size_t bytes() const;

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <varifold/mesh/triangle_mesh.h>
+#include <varifold/models/common/level_queries.h>
 #include <varifold/models/common/level_table.h>
 #include <cstddef>
 #include <cstdint>
@@ -52,7 +53,7 @@ struct MultiresolutionStripsData {
 };
 
 /// Immutable, shared by any number of instances and threads; satisfies UniformModel.
-class MultiresolutionStrips {
+class MultiresolutionStrips : public LevelQueries<MultiresolutionStrips> {
  public:
   MultiresolutionStrips() : MultiresolutionStrips(MultiresolutionStripsData{}) {}
   /// The arrays must be consistent, as from build_mts() or decode_mts().
@@ -60,31 +61,7 @@ class MultiresolutionStrips {
 
   [[nodiscard]] const MultiresolutionStripsData& data() const { return data_; }
   [[nodiscard]] const TriangleMesh& attributes() const { return data_.mesh; }
-  [[nodiscard]] std::uint32_t finest_level() const { return data_.levels.finest_level(); }
-  [[nodiscard]] std::uint32_t vertex_count(std::uint32_t level) const {
-    return data_.levels.vertex_count(level);
-  }
-  [[nodiscard]] std::uint32_t triangle_count(std::uint32_t level) const {
-    return data_.levels.triangle_count(level);
-  }
-  /// A distance in model units; see CollapseSequence::error for what it bounds.
-  [[nodiscard]] float error(std::uint32_t level) const { return data_.levels.error(level); }
-  [[nodiscard]] bool error_is_measured() const { return data_.levels.error_is_measured(); }
-  [[nodiscard]] std::uint32_t level_for_triangles(std::uint32_t count) const {
-    return data_.levels.level_for_triangles(count);
-  }
-  [[nodiscard]] std::uint32_t level_for_vertices(std::uint32_t count) const {
-    return data_.levels.level_for_vertices(count);
-  }
-  [[nodiscard]] std::uint32_t level_for_error(float bound) const {
-    return data_.levels.level_for_error(bound);
-  }
-  [[nodiscard]] std::uint32_t level_for_fraction(float fraction) const {
-    return data_.levels.level_for_fraction(fraction);
-  }
-  [[nodiscard]] std::uint32_t ancestor(std::uint32_t vertex, std::uint32_t level) const {
-    return data_.levels.ancestor(vertex, level);
-  }
+  [[nodiscard]] const LevelTable& levels() const { return data_.levels; }
 
   /// Strips at full detail, without those that only coarser levels have.
   [[nodiscard]] std::uint32_t strip_count() const {

@@ -9,6 +9,7 @@
 
 #include <varifold/mesh/triangle_mesh.h>
 #include <varifold/models/common/error_code.h>
+#include <varifold/models/common/level_queries.h>
 #include <varifold/models/common/level_table.h>
 #include <varifold/models/strips/nested_ranges.h>
 #include <varifold/strip/triangle_strips.h>
@@ -40,7 +41,7 @@ struct StripFrameworkData {
 
 /// Immutable, shared by any number of instances and threads. A slot is a place in the strips, all
 /// of them one after the other.
-class StripFramework {
+class StripFramework : public LevelQueries<StripFramework> {
  public:
   StripFramework() = default;
   /// `strips` are those of full detail; strips of a material range must follow those of the ranges
@@ -51,30 +52,6 @@ class StripFramework {
   [[nodiscard]] const StripFrameworkData& data() const { return data_; }
   [[nodiscard]] const LevelTable& levels() const { return data_.levels; }
   [[nodiscard]] const TriangleMesh& attributes() const { return data_.mesh; }
-  [[nodiscard]] std::uint32_t finest_level() const { return data_.levels.finest_level(); }
-  [[nodiscard]] std::uint32_t vertex_count(std::uint32_t level) const {
-    return data_.levels.vertex_count(level);
-  }
-  [[nodiscard]] std::uint32_t triangle_count(std::uint32_t level) const {
-    return data_.levels.triangle_count(level);
-  }
-  /// A distance in model units; see CollapseSequence::error for what it bounds.
-  [[nodiscard]] float error(std::uint32_t level) const { return data_.levels.error(level); }
-  [[nodiscard]] std::uint32_t level_for_triangles(std::uint32_t count) const {
-    return data_.levels.level_for_triangles(count);
-  }
-  [[nodiscard]] std::uint32_t level_for_vertices(std::uint32_t count) const {
-    return data_.levels.level_for_vertices(count);
-  }
-  [[nodiscard]] std::uint32_t level_for_error(float bound) const {
-    return data_.levels.level_for_error(bound);
-  }
-  [[nodiscard]] std::uint32_t level_for_fraction(float fraction) const {
-    return data_.levels.level_for_fraction(fraction);
-  }
-  [[nodiscard]] std::uint32_t ancestor(std::uint32_t vertex, std::uint32_t level) const {
-    return data_.levels.ancestor(vertex, level);
-  }
 
   [[nodiscard]] std::uint32_t strip_count() const {
     return static_cast<std::uint32_t>(strip_range_.size());
