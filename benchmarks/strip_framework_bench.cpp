@@ -2,11 +2,11 @@
 #include <benchmark/benchmark.h>
 #include <benchmarks/bench_meshes.h>
 #include <benchmarks/benchmarks.h>
-#include <tests/support/greedy_strips.h>
 #include <varifold/base/random.h>
 #include <varifold/models/strips/build.h>
 #include <varifold/models/strips/instance.h>
 #include <varifold/simplify/simplify.h>
+#include <varifold/strip/stripify.h>
 #include <varifold/view/camera.h>
 #include <cstdint>
 #include <map>
@@ -36,7 +36,7 @@ const Input& input(const std::string& name) {
   auto result = simplify(without_attributes(mesh(name)), options);
   Input input;
   if (result) input.detailed = std::move(result->detailed);
-  input.strips = test::greedy_strips(input.detailed.mesh);
+  input.strips = stripify(input.detailed.mesh);
   return made.emplace(name, std::move(input)).first->second;
 }
 

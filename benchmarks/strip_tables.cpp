@@ -1,12 +1,12 @@
 // Prints the tables of docs/algorithms/strip_framework.md: what the strips framework takes in
 // memory, what it sends at every level, and the plane test of [Ramos2008] section 3.5.
 #include <benchmarks/bench_meshes.h>
-#include <tests/support/greedy_strips.h>
 #include <varifold/base/random.h>
 #include <varifold/models/strips/build.h>
 #include <varifold/models/strips/encoding.h>
 #include <varifold/models/strips/instance.h>
 #include <varifold/simplify/simplify.h>
+#include <varifold/strip/stripify.h>
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
@@ -30,6 +30,8 @@ double median(std::vector<double> values) {
   return values.empty() ? 0 : values[values.size() / 2];
 }
 
+constexpr double kMebi = 1024.0 * 1024.0;
+
 struct Subject {
   std::string name;
   DetailedMesh detailed;
@@ -41,7 +43,7 @@ Subject make_subject(const std::string& name) {
   auto result = simplify(without_attributes(mesh(name)));
   if (result) subject.detailed = std::move(result->detailed);
   subject.model = std::make_shared<StripFramework>(
-      build_strip_framework(subject.detailed, test::greedy_strips(subject.detailed.mesh)));
+      build_strip_framework(subject.detailed, stripify(subject.detailed.mesh)));
   return subject;
 }
 
@@ -67,7 +69,7 @@ void print_memory(const Subject& subject) {
       subject.name.c_str(), vertices, model.triangle_count(model.finest_level()),
       model.strip_count(),
       static_cast<double>(model.slot_count()) / model.triangle_count(model.finest_level()),
-      records / vertices, 4 * words / vertices, 4e-6 * words, bytes / vertices, 1e-6 * bytes,
+      records / vertices, 4 * words / vertices, 4 * words / kMebi, bytes / vertices, bytes / kMebi,
       front / vertices, static_cast<double>(instance.bytes()) / vertices, file / vertices);
 }
 
@@ -177,7 +179,7 @@ int main() {
   for (const std::string& name : names) subjects.push_back(make_subject(name));
   std::printf(
       "| mesh | vertices | triangles | strips | slots per triangle | records per vertex | thesis' "
-      "form: B per vertex / MB | ours: B per vertex / MB | of that for fronts | instance | file "
+      "form: B per vertex / MiB | ours: B per vertex / MiB | of that for fronts | instance | file "
       "|\n");
   for (const Subject& subject : subjects) print_memory(subject);
   std::printf("\n| mesh | level | triangles | unfiltered | sent | per triangle | list |\n");

@@ -21,6 +21,7 @@ struct BenchCommand {
   std::vector<std::string> inputs;
   BenchTest test;
   std::string draw = "auto";
+  std::uint32_t samples = 101;
 };
 
 /// Models with levels per region say how they follow a plane: full detail on the side that its
@@ -102,7 +103,7 @@ class BenchWalk {
     for (std::uint32_t step = 0; step < steps; ++step) {
       const Stopwatch watch;
       if constexpr (FollowsPlane<Model>) {
-        if (command_.test.name == "plane")
+        if (is_plane())
           move_plane((step + 1.0) / steps);
         else
           instance_.go_to_level(path[step]);
@@ -131,21 +132,25 @@ class BenchWalk {
   void move_plane(double part) {
     if constexpr (FollowsPlane<Model>) {
       const auto x = static_cast<float>(box_.lower.x + part * (box_.upper.x - box_.lower.x));
-      ModelKind<Model>::adapt_to_plane(instance_, Vec3(x, 0, 0), Vec3(1, 0, 0));
+      front_ = ModelKind<Model>::adapt_to_plane(instance_, Vec3(x, 0, 0), Vec3(1, 0, 0));
     }
   }
 
-  // At most 101 samples of all steps, the first and the last among them.
+  [[nodiscard]] bool is_plane() const { return command_.test.name == "plane"; }
+
+  // A part of all steps, the first and the last among them.
   void note(std::uint32_t step, const DrawList& list, double extraction, double drawing) {
     const SubmittedIndices sent = submitted_indices(list);
     indices_ += sent.indices;
     const std::uint32_t level = instance_.level();
-    if (command_.test.name != "plane") {
+    if (is_plane()) {
+      collapses_ += std::uint64_t{front_.splits} + front_.collapses;
+    } else {
       collapses_ += level > before_ ? level - before_ : before_ - level;
       before_ = level;
     }
     const std::uint64_t last = command_.test.steps - 1;
-    const std::uint64_t intervals = std::clamp<std::uint64_t>(last, 1, 100);
+    const std::uint64_t intervals = std::clamp<std::uint64_t>(last, 1, command_.samples - 1);
     if (step != samples_.size() * last / intervals) return;
     Json sample{{"step", step},
                 {"indices", sent.indices},
@@ -153,7 +158,10 @@ class BenchWalk {
                 {"strips", sent.strips},
                 {"seconds_extraction", extraction},
                 {"seconds_drawing", device_ ? Json(drawing) : Json()}};
-    if (command_.test.name != "plane") {
+    if (is_plane()) {
+      sample["triangles"] = front_.triangles;
+      sample["forced_splits"] = front_.forced_splits;
+    } else {
       sample["level"] = level;
       sample["triangles"] = model_->triangle_count(level);
     }
@@ -163,7 +171,6 @@ class BenchWalk {
   Json result() const {
     const double total = extraction_ + drawing_;
     const double per_second = static_cast<double>(collapses_) / std::max(extraction_, 1e-9);
-    const bool is_plane = command_.test.name == "plane";  // whose steps are not along levels
     const double vertices = std::max(1u, model_->vertex_count(model_->finest_level()));
     return {{"kind", ModelKind<Model>::kName},
             {"test", command_.test.name},
@@ -174,8 +181,8 @@ class BenchWalk {
             {"seconds_extraction", extraction_},
             {"seconds_drawing", device_ ? Json(drawing_) : Json()},
             {"extraction_share", total > 0 ? extraction_ / total : 0},
-            {"collapses", is_plane ? Json() : Json(collapses_)},
-            {"collapses_per_second", is_plane ? Json() : Json(per_second)},
+            {"collapses", collapses_},
+            {"collapses_per_second", per_second},
             {"indices_submitted", indices_},
             {"model_bytes", model_->bytes()},
             {"instance_bytes", instance_.bytes()},
@@ -191,16 +198,24 @@ class BenchWalk {
   double extraction_ = 0, drawing_ = 0;
   std::uint64_t collapses_ = 0, indices_ = 0;
   std::uint32_t before_ = model_->finest_level();
+  FrontStatistics front_;  ///< of the last step of the plane test
   Json samples_ = Json::array();
 };
 
-Result<Json> bench_model(const BenchCommand& command, const std::string& input, const AnyModel& any,
-                         BenchDevice* device) {
-  return std::visit(
-      [&]<class Model>(const std::shared_ptr<const Model>& model) -> Result<Json> {
+// Wrong usage where the test is not for the model.
+void check_test(const BenchCommand& command, const std::string& input, const AnyModel& any) {
+  std::visit(
+      [&]<class Model>(const std::shared_ptr<const Model>&) {
         if (command.test.name == "plane" && !FollowsPlane<Model>)
           wrong_usage(input + ": --test plane needs levels per region; a model of kind " +
                       ModelKind<Model>::kName + " has one level for all");
+      },
+      any);
+}
+
+Result<Json> bench_model(const BenchCommand& command, const AnyModel& any, BenchDevice* device) {
+  return std::visit(
+      [&]<class Model>(const std::shared_ptr<const Model>& model) {
         return BenchWalk<Model>(command, model, device).run();
       },
       any);
@@ -209,9 +224,8 @@ Result<Json> bench_model(const BenchCommand& command, const std::string& input, 
 void add_row(const std::string& input, const Json& result, Report& report) {
   std::string text = fmt::format("{}: {} of extraction", result["kind"].get<std::string>(),
                                  format_seconds(result["seconds_extraction"].get<double>()));
-  if (!result["collapses_per_second"].is_null())
-    text +=
-        fmt::format(", {:.1f} M collapses/s", result["collapses_per_second"].get<double>() * 1e-6);
+  text +=
+      fmt::format(", {:.1f} M collapses/s", result["collapses_per_second"].get<double>() * 1e-6);
   if (!result["seconds_drawing"].is_null())
     text += fmt::format(", {} of drawing ({:.1f} % extraction)",
                         format_seconds(result["seconds_drawing"].get<double>()),
@@ -244,12 +258,13 @@ CommandResult run_bench(BenchCommand command) {
     if (!any) return tl::unexpected(any.error());
     models.push_back(std::move(*any));
   }
+  for (std::size_t i = 0; i < models.size(); ++i) check_test(command, command.inputs[i], models[i]);
   auto device = make_device(command);
   if (!device) return tl::unexpected(device.error());
   Report report;
   Json results = Json::array();
   for (std::size_t i = 0; i < models.size(); ++i) {
-    auto result = bench_model(command, command.inputs[i], models[i], *device ? &**device : nullptr);
+    auto result = bench_model(command, models[i], *device ? &**device : nullptr);
     if (!result) return fail_in(command.inputs[i], std::move(result.error()));
     add_row(command.inputs[i], *result, report);
     results.push_back(std::move(*result));
@@ -275,6 +290,13 @@ void add_bench(CLI::App& app, CommandRunner& runner) {
       ->type_name("TEST");
   command->add_option("--steps", options->test.steps, "Changes of level")
       ->check(CLI::Range(1, 10000000))
+      ->capture_default_str()
+      ->type_name("N");
+  command
+      ->add_option("--samples", options->samples,
+                   "At most so many steps are told one by one in the JSON, the first and the last "
+                   "among them")
+      ->check(CLI::Range(2, 10000000))
       ->capture_default_str()
       ->type_name("N");
   command->add_option("--seed", options->test.seed, "Of the random test")

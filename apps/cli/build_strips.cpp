@@ -1,5 +1,6 @@
 // varifold build strips|lodstrips|mts: a mesh becomes a model of triangle strips.
 #include <apps/cli/build_common.h>
+#include <apps/cli/index_report.h>
 #include <apps/cli/stripifier.h>
 #include <varifold/models/lodstrips/build.h>
 #include <varifold/models/mts/build.h>
@@ -77,13 +78,7 @@ template <class Model>
 void report_strips(const std::shared_ptr<const Model>& model, Report& report) {
   InstanceOf<Model> instance(model);
   instance.go_to_level(model->finest_level());
-  const SubmittedIndices sent = submitted_indices(instance.draw_list());
-  const std::uint32_t triangles = model->triangle_count(model->finest_level());
-  // With a restart between any two strips.
-  const auto indices =
-      static_cast<double>(sent.vertices + std::max<std::uint64_t>(1, sent.strips) - 1);
-  report.count("strips", "strips", sent.strips);
-  report.length("indices_per_triangle", "indices a triangle", indices / std::max(1u, triangles));
+  report_indices(index_measures(instance.draw_list()), report);
 }
 
 template <class Model>
@@ -97,6 +92,7 @@ CommandResult run_build(const StripsCommand<Model>& command) {
   const auto input = input_path(command.build.input), output = output_path(command.build.output);
   if constexpr (requires { StripsBuild<Model>::check_options(command.own); })
     StripsBuild<Model>::check_options(command.own);
+  check_stripifier_options(command.own.stripifier);
   if (command.build.flags.placement == "optimal")
     wrong_usage("--placement optimal: strips name vertices, they do not move them; use kept");
   if (auto writable = check_output(output, command.build.common); !writable)
@@ -120,9 +116,9 @@ CommandResult run_build(const StripsCommand<Model>& command) {
   report_model(*model, *file, simplified->faults, report);
   if constexpr (requires { model->form_kind(); })
     report.text("form", "form", std::string(form_name(model->form_kind())));
+  times.all = watch.seconds();
   report_strips(model, report);
   report_stop(simplified->stop, input, report);
-  times.all = watch.seconds();
   report_times(*simplified, times, report);
   return finish(report, command.build.common, output);
 }

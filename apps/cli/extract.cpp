@@ -1,9 +1,14 @@
 // varifold extract: the mesh at a level of a model.
 #include <apps/cli/commands.h>
+#include <apps/cli/index_report.h>
 #include <apps/cli/input.h>
 #include <apps/cli/level_options.h>
+#include <apps/cli/strip_mesh.h>
+#include <varifold/strip/strip_measures.h>
 #include <memory>
 #include <optional>
+#include <type_traits>
+#include <utility>
 
 namespace varifold::cli {
 namespace {
@@ -15,12 +20,30 @@ struct ExtractCommand {
   PlaceOptions places;
   bool has_view = false;
   std::string input, output;
+  std::string strips;  ///< how they are divided; empty: triangles
 };
 
 void warn_of_base(const ExtractCommand& command, std::uint32_t base) {
   if (command.level.triangles && *command.level.triangles < base)
     print_message(command.input + ": warning: the base has " + format_count(base) +
                   " triangles; there is nothing coarser");
+}
+
+// The level, with strips where they are asked for.
+template <class Instance>
+StripMesh level_mesh(Instance& instance, std::optional<StripJoin> join) {
+  using Model = std::remove_cvref_t<decltype(instance.model())>;
+  if constexpr (kDrawsStrips<Model>)
+    if (join) return drawn_strips(instance.draw_list(), instance.model().attributes(), *join);
+  TriangleMesh mesh = without_unused_vertices(instance.extract());
+  return join ? new_strips(std::move(mesh), *join) : StripMesh{std::move(mesh), {}};
+}
+
+void report_strips(const JoinedStrips& strips, Report& report) {
+  const IndexMeasures measures = measure_indices(strips.indices, strips.ranges);
+  report.count("strips", "strips", measures.strips);
+  report.count("indices", "indices", measures.indices);
+  report.length("indices_per_triangle", "indices a triangle", measures.indices_per_triangle());
 }
 
 template <class Model>
@@ -34,8 +57,10 @@ CommandResult extract_from(const ExtractCommand& command, const std::shared_ptr<
       go_to_choice<Model>(instance, command.level, command.places, camera ? &*camera : nullptr,
                           asks_for_view(command.view, command.level));
   warn_of_base(command, model->triangle_count(0));
-  const TriangleMesh mesh = without_unused_vertices(instance.extract());
-  if (auto written = write_mesh_loudly(mesh, output); !written)
+  const std::optional<StripJoin> join = strip_join(command.strips, output);
+  const StripMesh level = level_mesh(instance, join);
+  const TriangleMesh& mesh = level.mesh;
+  if (auto written = write_mesh_loudly(mesh, output, join ? &level.strips : nullptr); !written)
     return tl::unexpected(written.error());
 
   Report report;
@@ -46,6 +71,7 @@ CommandResult extract_from(const ExtractCommand& command, const std::shared_ptr<
   }
   report.count("vertices", "vertices", mesh.vertex_count());
   report.count("triangles", "triangles", mesh.triangle_count());
+  if (join) report_strips(level.strips, report);
   if (!chosen.is_front) report.length("error", "error", model->error(chosen.level));
   if (camera) {
     report.length("pixel_error", "error in pixels", chosen.pixel_error);
@@ -79,11 +105,13 @@ void add_extract(CLI::App& app, CommandRunner& runner) {
   command->add_option("-o,--output", options->output, "The mesh file: .ply, .obj or .glb")
       ->required()
       ->type_name("MESH");
+  add_strips_option(*command, options->strips);
   runner.add_common(*command, options->common, false);
   runner.attach(*command, options->common, [options] {
     if (options->level.empty() && options->places.empty())
       wrong_usage("a LEVEL is needed: --lod, --triangles, --vertices, --error or --pixels");
     check_level_options(options->level);
+    static_cast<void>(strip_join(options->strips, options->output));
     options->has_view = options->view.eye || options->level.pixels;
     return run_extract(*options);
   });

@@ -1,5 +1,6 @@
 // varifold info: what is in a mesh file or a model file.
 #include <apps/cli/commands.h>
+#include <apps/cli/index_report.h>
 #include <apps/cli/input.h>
 #include <fmt/format.h>
 #include <varifold/io/container.h>
@@ -135,7 +136,8 @@ void report_levels(const Model& model, Report& report) {
 }
 
 template <class Model>
-void report_model(const Model& model, Report& report) {
+void report_model(const std::shared_ptr<const Model>& shared, Report& report) {
+  const Model& model = *shared;
   const TriangleMesh& mesh = model.attributes();
   const std::uint32_t finest = model.finest_level();
   report.text("type", "type", "model");
@@ -157,6 +159,7 @@ void report_model(const Model& model, Report& report) {
   report_bounds(box, report);
   report_attributes(mesh, report);
   report_levels(model, report);
+  if constexpr (kDrawsStrips<Model>) report_index_samples(shared, report);
   report.bytes("model_bytes", "in memory", model.bytes());
   report.length("bytes_per_vertex", "bytes a vertex, memory",
                 static_cast<double>(model.bytes()) / std::max(1u, mesh.vertex_count()));
@@ -166,7 +169,7 @@ CommandResult model_info(const InfoCommand& command, const std::filesystem::path
   const auto any = read_any_model(path);
   if (!any) return tl::unexpected(any.error());
   Report report;
-  std::visit([&](const auto& model) { report_model(*model, report); }, *any);
+  std::visit([&](const auto& model) { report_model(model, report); }, *any);
   const auto vertices =
       static_cast<double>(std::max<std::uint64_t>(1, report.values()["vertices"]));
   // What came through a pipe is gone.

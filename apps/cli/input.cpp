@@ -98,9 +98,10 @@ std::optional<MeshFormat> written_format(const std::filesystem::path& path) {
 
 }  // namespace
 
-Result<void> write_mesh_loudly(const TriangleMesh& mesh, const std::filesystem::path& path) {
+Result<void> write_mesh_loudly(const TriangleMesh& mesh, const std::filesystem::path& path,
+                               const JoinedStrips* strips) {
   if (auto done = check_interrupted(path); !done) return done;
-  if (auto written = write_mesh(mesh, path); !written) return written;
+  if (auto written = write_mesh(mesh, path, strips); !written) return written;
   if (const auto format = written_format(path))
     for (const std::string& part : unwritten_parts(mesh, *format))
       print_message(

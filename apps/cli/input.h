@@ -5,6 +5,7 @@
 #include <varifold/base/result.h>
 #include <varifold/io/imported_mesh.h>
 #include <varifold/io/model_file.h>
+#include <varifold/strip/triangle_strips.h>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -35,9 +36,11 @@ void prepare_mesh(TriangleMesh& mesh, const PrepareOptions& options);
 /// The same for jobs that need triangles: a mesh without any is invalid.
 [[nodiscard]] Result<ImportedMesh> read_surface(const std::filesystem::path& path);
 
-/// Writes a mesh by the extension of its path, and tells what the format could not hold.
+/// Writes a mesh by the extension of its path, and tells what the format could not hold. `strips`:
+/// see write_mesh().
 [[nodiscard]] Result<void> write_mesh_loudly(const TriangleMesh& mesh,
-                                             const std::filesystem::path& path);
+                                             const std::filesystem::path& path,
+                                             const JoinedStrips* strips = nullptr);
 /// check_output(), and that the extension is one that can be written.
 [[nodiscard]] Result<void> check_mesh_output(const std::filesystem::path& path,
                                              const CommonOptions& options);

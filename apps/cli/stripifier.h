@@ -12,10 +12,16 @@ namespace varifold::cli {
 struct StripifierOptions {
   std::string name = "length";
   std::uint32_t cache_size = 16;
-  std::uint32_t max_indices = 0;  ///< of a strip; 0: no limit
+  std::string heuristic = "rows";  ///< of the kind length, like the two that follow
+  bool keep_ends = false;          ///< strips whose ends meet are not joined
+  std::uint64_t seed = 1;          ///< of the heuristic random
+  std::uint32_t max_indices = 0;   ///< of a strip; 0: no limit
   friend bool operator==(const StripifierOptions&, const StripifierOptions&) = default;
 };
 void add_stripifier_options(CLI::App& command, StripifierOptions& options);
+
+/// Wrong usage where an option is set that the chosen stripifier does not have.
+void check_stripifier_options(const StripifierOptions& options);
 
 /// Strips of all triangles of the full level, by material ranges.
 [[nodiscard]] TriangleStrips make_strips(const DetailedMesh& detailed,

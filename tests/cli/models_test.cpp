@@ -8,7 +8,12 @@
 #include <varifold/io/model_file.h>
 #include <varifold/io/output_file.h>
 #include <varifold/mesh/validation.h>
+#include <algorithm>
+#include <array>
 #include <fstream>
+#include <set>
+#include <utility>
+#include <vector>
 
 namespace varifold {
 namespace {
@@ -19,6 +24,24 @@ using test::lines_of;
 using test::run_tool;
 using test::TemporaryFolder;
 using test::ToolResult;
+
+// Corners as points, the least first, orientation kept.
+using PointTriangle = std::array<std::array<float, 3>, 3>;
+std::vector<PointTriangle> sorted_triangles(const TriangleMesh& mesh) {
+  std::vector<PointTriangle> triangles;
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    PointTriangle triangle;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Vec3& p = mesh.positions[mesh.indices[i + c]];
+      triangle[c] = {p.x, p.y, p.z};
+    }
+    std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()),
+                triangle.end());
+    triangles.push_back(triangle);
+  }
+  std::sort(triangles.begin(), triangles.end());
+  return triangles;
+}
 
 class Models : public ::testing::TestWithParam<const char*> {
  protected:
@@ -172,6 +195,18 @@ TEST_P(Models, BenchDrawsOrDoesNot) {
     EXPECT_TRUE(multi.contains(key)) << key;
 }
 
+TEST_P(Models, SamplesAsManyAsAskedFor) {
+  (void)make_model("torus", "200");
+  for (const auto& [asked, told] : {std::pair{"2", 2u}, {"7", 7u}, {"101", 101u}, {"9000", 250u}}) {
+    const json result = run_json({"bench", path("m.vfm"), "--steps", "250", "--samples", asked,
+                                  "--draw", "none"})["results"][0];
+    ASSERT_EQ(result["samples"].size(), told);
+    EXPECT_EQ(result["samples"].front()["step"], 0);
+    EXPECT_EQ(result["samples"].back()["step"], 249);
+  }
+  EXPECT_EQ(run_tool({"bench", path("m.vfm"), "--samples", "1"}).exit_code, 2);
+}
+
 TEST_P(Models, OneSampleOfOneStep) {
   (void)make_model("torus", "200");
   const json told =
@@ -194,6 +229,92 @@ TEST_P(Models, ThePlaneTestNeedsLevelsPerRegion) {
   // The more the plane has passed, the less is drawn; in the end next to nothing.
   EXPECT_GT(told["samples"][0]["indices"], told["samples"][10]["indices"]);
   EXPECT_GT(told["samples"][10]["indices"], told["samples"][19]["indices"]);
+  EXPECT_GT(told["samples"][0]["triangles"], told["samples"][10]["triangles"]);
+  EXPECT_GT(told["samples"][10]["triangles"], told["samples"][19]["triangles"]);
+  // Every collapse on the way from full detail is one; forced splits may be collapsed later.
+  EXPECT_GT(told["collapses"], run_json({"info", path("m.vfm")})["levels"].get<int>() / 2);
+  EXPECT_GT(told["collapses_per_second"], 0);
+}
+
+// One model that the test is not for, and nothing is measured.
+TEST_P(Models, AllModelsAreLookedAtBeforeThePlaneTest) {
+  (void)make_model("torus", "200");
+  EXPECT_EQ(run_tool({"build", "strips", path("m.glb"), "-o", path("s.vfm")}).exit_code, 0);
+  const ToolResult result = run_tool({"bench", path("s.vfm"), path("m.vfm"), "--test", "plane",
+                                      "--steps", "10000000", "--draw", "none"},
+                                     {.limit = std::chrono::milliseconds(20'000)});
+  if (kind() == "strips") return;
+  EXPECT_EQ(result.exit_code, 2) << result.err;
+  EXPECT_NE(result.err.find("m.vfm"), std::string::npos) << result.err;
+}
+
+TEST_P(Models, InfoMeasuresTheIndicesOfStrips) {
+  const json told = make_model();
+  const json info = run_json({"info", path("m.vfm")});
+  EXPECT_EQ(info.contains("index_samples"), kind() != "pm");
+  if (kind() == "pm") return;
+  const json& samples = info["index_samples"];
+  ASSERT_EQ(samples.size(), 5u);
+  for (const json& sample : samples) {
+    const double triangles = sample["triangles"];
+    EXPECT_NEAR(sample["vertices"].get<double>(),
+                info["vertices"].get<double>() * sample["percent"].get<int>() / 100, 2);
+    EXPECT_DOUBLE_EQ(sample["indices_per_triangle"], sample["indices"].get<double>() / triangles);
+    // A strip has two indices more than triangles, swaps among these, and a restart follows it.
+    EXPECT_EQ(sample["indices"].get<std::int64_t>(),
+              triangles + sample["swaps"].get<double>() + 3 * sample["strips"].get<double>() - 1);
+    // Two or three indices in place of a restart.
+    EXPECT_GE(sample["joined_indices"].get<std::int64_t>(),
+              sample["indices"].get<std::int64_t>() + sample["strips"].get<std::int64_t>() - 1);
+    EXPECT_LE(sample["joined_indices"].get<std::int64_t>(),
+              sample["indices"].get<std::int64_t>() + 2 * sample["strips"].get<std::int64_t>() - 2);
+    EXPECT_GE(sample["acmr_16"], sample["acmr_24"]);
+    EXPECT_GE(sample["acmr_24"], sample["acmr_32"]);
+    EXPECT_GT(sample["acmr_32"], 0.5);
+    EXPECT_GE(sample["atvr_32"], 1);
+    EXPECT_NEAR(sample["atvr_16"].get<double>() * sample["vertices"].get<double>(),
+                sample["acmr_16"].get<double>() * triangles, 1e-6 * triangles);
+  }
+  // A build says the same of full detail.
+  for (const char* key : {"strips", "indices", "indices_per_triangle", "swaps", "acmr_16",
+                          "acmr_24", "acmr_32", "atvr_16", "joined_indices"})
+    EXPECT_EQ(told[key], samples[0][key]) << key;
+}
+
+// As triangles, and as strips, which other programs read as the same triangles.
+TEST_P(Models, ExtractStrips) {
+  for (const char* shape : {"planet", "seamed_sphere", "terrain", "box"}) {
+    (void)make_model(shape);
+    const std::size_t materials =
+        std::max<std::size_t>(1, run_json({"info", path("m.vfm")})["materials"].size());
+    const json list = run_json({"extract", path("m.vfm"), "--lod", "0.4", "-o", path("l.ply")});
+    EXPECT_FALSE(list.contains("strips"));
+    for (const auto& [how, file] :
+         {std::pair{"restart", "s.ply"}, {"degenerate", "s.ply"}, {"degenerate", "s.glb"}}) {
+      const json strips =
+          run_json({"extract", path("m.vfm"), "--lod", "0.4", "--strips", how, "-o", path(file)});
+      EXPECT_EQ(strips["triangles"], list["triangles"]) << shape;
+      EXPECT_EQ(strips["vertices"], list["vertices"]) << shape;
+      if (std::string(how) == "degenerate")
+        EXPECT_EQ(strips["strips"], materials) << shape;
+      else
+        EXPECT_GT(strips["strips"], materials) << shape;
+      EXPECT_GT(strips["indices_per_triangle"], 1.0);
+      EXPECT_LT(strips["indices_per_triangle"], 3.5);
+      const auto mesh = read_mesh(path(file));
+      ASSERT_TRUE(mesh);
+      EXPECT_TRUE(is_sound(validate(mesh->mesh))) << shape;
+      EXPECT_EQ(sorted_triangles(mesh->mesh), sorted_triangles(read_mesh(path("l.ply"))->mesh))
+          << shape << how << file;
+    }
+  }
+  for (const auto& [how, file] : {std::pair{"restart", "s.glb"}, {"degenerate", "s.obj"}}) {
+    std::filesystem::remove(path(file));
+    EXPECT_EQ(run_tool({"extract", path("m.vfm"), "--lod", "1", "--strips", how, "-o", path(file)})
+                  .exit_code,
+              2);
+    EXPECT_FALSE(std::filesystem::exists(path(file)));
+  }
 }
 
 TEST_P(Models, StripsRefuseOptimalPlacement) {
@@ -342,6 +463,46 @@ TEST(BuildStrips, EveryStripifier) {
   }
   EXPECT_EQ(run_tool({"build", "mts", mesh, "-o", model, "--cache-size", "20"}).exit_code, 2);
   EXPECT_EQ(run_tool({"build", "mts", mesh, "-o", model, "--stripifier", "nv"}).exit_code, 2);
+}
+
+// Every rule makes other strips; sound ones.
+TEST(BuildStrips, EveryHeuristic) {
+  const TemporaryFolder folder;
+  const std::string mesh = folder.file("m.ply"), model = folder.file("m.vfm");
+  ASSERT_EQ(run_tool({"generate", "planet", "--triangles", "6000", "-o", mesh}).exit_code, 0);
+  const auto build = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> arguments{"build", "strips", mesh, "-o", model, "--json"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    return run_tool(arguments);
+  };
+  std::set<std::string> seen;
+  std::vector<std::vector<std::string>> all{
+      {}, {"--keep-ends"}, {"--heuristic", "random", "--strip-seed", "7"}};
+  for (const char* rule : {"first", "random", "look-ahead", "alternate", "sequential", "straight"})
+    all.push_back({"--heuristic", rule});
+  for (const std::vector<std::string>& options : all) {
+    const ToolResult result = build(options);
+    ASSERT_EQ(result.exit_code, 0) << ::testing::PrintToString(options) << result.err;
+    EXPECT_LT(result.json()["indices_per_triangle"], 1.7);
+    EXPECT_TRUE(seen.insert(bytes_of(model)).second) << ::testing::PrintToString(options);
+    EXPECT_EQ(run_tool({"check", model}).exit_code, 0) << ::testing::PrintToString(options);
+  }
+  const json rows = build({}).json();
+  EXPECT_EQ(build({"--heuristic", "rows"}).json()["indices"], rows["indices"]);
+  EXPECT_LT(rows["indices"], build({"--keep-ends"}).json()["indices"]);
+  const json cache = build({"--stripifier", "cache"}).json();
+  EXPECT_LT(cache["acmr_16"], rows["acmr_16"]);
+  EXPECT_LT(build({"--stripifier", "cache", "--cache-size", "24"}).json()["acmr_24"],
+            cache["acmr_24"]);
+  for (const std::vector<std::string>& wrong :
+       std::vector<std::vector<std::string>>{{"--heuristic", "luck"},
+                                             {"--stripifier", "cache", "--heuristic", "first"},
+                                             {"--stripifier", "sequence", "--keep-ends"},
+                                             {"--strip-seed", "3"}}) {
+    const ToolResult result = build(wrong);
+    EXPECT_EQ(result.exit_code, 2) << ::testing::PrintToString(wrong);
+    EXPECT_EQ(lines_of(result.err).size(), 1u) << result.err;
+  }
 }
 
 }  // namespace

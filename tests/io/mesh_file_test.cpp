@@ -1,10 +1,15 @@
 #include <varifold/io/mesh_file.h>
 
 #include <tests/io/io_support.h>
+#include <tests/strip/oriented_triangles.h>
+#include <tests/support/meshes.h>
 #include <tests/support/test_files.h>
+#include <varifold/io/gltf.h>
 #include <varifold/io/mapped_file.h>
 #include <varifold/io/output_file.h>
+#include <varifold/io/ply.h>
 #include <varifold/mesh/weld.h>
+#include <varifold/strip/stripify.h>
 #include <algorithm>
 #include <chrono>
 
@@ -165,6 +170,41 @@ TEST(MeshFile, ReadersStandFilesOfOtherFormats) {
         EXPECT_FALSE(message_of(result).empty());
     }
   }
+}
+
+// Strips over the same vertices come back as the same triangles, by material where there are some.
+TEST(MeshFile, StripsAreReadAsTheirTriangles) {
+  for (const auto& [name, mesh] : test::all_groups()) {
+    const TriangleStrips made = stripify(mesh);
+    const auto wanted = test::oriented_triangles(mesh);
+    const auto plain = [](TriangleMesh read) {
+      read.ranges.clear();
+      return test::oriented_triangles(read);
+    };
+    for (const StripJoin join : {StripJoin::kRestart, StripJoin::kDegenerate}) {
+      const JoinedStrips strips = join_strips(made, mesh, join);
+      for (const bool ascii : {false, true}) {
+        VARIFOLD_ASSERT_VALUE(ply, read_ply(write_ply(mesh, {.ascii = ascii, .strips = &strips})));
+        EXPECT_EQ(ply.mesh.positions, mesh.positions) << name;
+        EXPECT_EQ(test::oriented_triangles(ply.mesh), plain(mesh)) << name;
+      }
+      if (join == StripJoin::kRestart || wanted.empty()) continue;
+      VARIFOLD_ASSERT_VALUE(bytes, write_glb(mesh, &strips));
+      EXPECT_NE(as_text(bytes).find("\"mode\":5"), std::string_view::npos) << name;
+      VARIFOLD_ASSERT_VALUE(glb, read_gltf(bytes));
+      EXPECT_EQ(glb.mesh.positions, mesh.positions) << name;
+      EXPECT_EQ(test::oriented_triangles(glb.mesh), wanted) << name;
+    }
+  }
+}
+
+TEST(MeshFile, ObjHasNoStrips) {
+  const TriangleMesh mesh = test::cube();
+  const JoinedStrips strips = join_strips(stripify(mesh), mesh, StripJoin::kDegenerate);
+  const test::TemporaryFolder folder;
+  EXPECT_EQ(message_of(write_mesh(mesh, folder.file("a.obj"), &strips)),
+            folder.file("a.obj").string() + ": the format has no strips");
+  EXPECT_FALSE(fs::exists(folder.file("a.obj")));
 }
 
 }  // namespace

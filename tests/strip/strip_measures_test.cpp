@@ -111,5 +111,37 @@ TEST(StripMeasures, JoinsByDegeneratesAreSwaps) {
             measure_strips(strips).indices);
 }
 
+TEST(StripsOf, RunsBetweenRestartsThatDrawATriangle) {
+  const std::uint32_t r = kStripRestart;
+  const std::vector<std::uint32_t> indices{9, 9, 9, 0, 1, 2, r, 3, 4, r, r, 5, 6, 5, r, 1, 2, 3, 4};
+  const std::vector<DrawRange> ranges{{3, 9, Primitive::kStrips, 2},
+                                      {0, 3, Primitive::kTriangles, 0},
+                                      {15, 4, Primitive::kStrips, 1}};
+  const TriangleStrips strips = strips_of(indices, ranges);
+  ASSERT_EQ(strips.count(), 2u);
+  EXPECT_EQ(strips.range, (std::vector<std::uint32_t>{2, 1}));
+  EXPECT_EQ(strips.indices, (std::vector<std::uint32_t>{0, 1, 2, 1, 2, 3, 4}));
+  EXPECT_EQ(strips.first, (std::vector<std::uint32_t>{0, 3, 7}));
+}
+
+TEST(StripsOf, GivesBackWhatWasJoined) {
+  for (const auto& [name, mesh] : test::all_groups()) {
+    const TriangleStrips strips = stripify(mesh);
+    const JoinedStrips joined = join_strips(strips, mesh, StripJoin::kRestart);
+    const TriangleStrips found = strips_of(joined.indices, joined.ranges);
+    // Both joins draw the same triangles.
+    const JoinedStrips long_ones = join_strips(strips, mesh, StripJoin::kDegenerate);
+    const TriangleStrips one = strips_of(long_ones.indices, long_ones.ranges);
+    EXPECT_EQ(found.count(), strips.count()) << name;
+    EXPECT_EQ(one.count(), long_ones.ranges.size()) << name;
+    EXPECT_EQ(measure_strips(found).triangles, measure_strips(strips).triangles) << name;
+    EXPECT_EQ(triangles_of(found).size(), triangles_of(one).size()) << name;
+    if (mesh.ranges.size() < 2) {
+      EXPECT_EQ(found.indices, strips.indices) << name;
+      EXPECT_EQ(triangles_of(one), triangles_of(strips)) << name;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace varifold

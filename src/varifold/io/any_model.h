@@ -84,10 +84,10 @@ struct ModelKind<StripFramework> {
     return encode_strip_framework(model);
   }
   /// Full detail on the side of a plane that its normal points to, the base elsewhere.
-  static void adapt_to_plane(Instance& instance, const Vec3& point, const Vec3& normal) {
+  static FrontStatistics adapt_to_plane(Instance& instance, const Vec3& point, const Vec3& normal) {
     RefineCriteria criteria;
     criteria.plane = Plane{normal, -glm::dot(normal, point)};
-    instance.adapt(criteria);
+    return instance.adapt(criteria);
   }
   /// The front that is asked for: within `pixels` of error where a camera sees the surface, as
   /// coarse as can be elsewhere, and at most so many triangles.

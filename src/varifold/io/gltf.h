@@ -3,6 +3,7 @@
 
 #include <varifold/base/result.h>
 #include <varifold/io/imported_mesh.h>
+#include <varifold/strip/triangle_strips.h>
 #include <cstddef>
 #include <filesystem>
 #include <span>
@@ -29,7 +30,10 @@ namespace varifold {
 
 /// The mesh as a binary glTF with all attributes, materials and images; one primitive per material
 /// range. Floats are exact. Images that the mesh only names stay references.
+/// With `strips` (over the vertices of the mesh, joined by degenerates, as glTF has no restarts)
+/// these are written in place of the triangles, one primitive of triangle strips per range.
 /// Errors: kFailed where the file would be longer than the 4 GiB that the format can express.
-[[nodiscard]] Result<std::vector<std::byte>> write_glb(const TriangleMesh& mesh);
+[[nodiscard]] Result<std::vector<std::byte>> write_glb(const TriangleMesh& mesh,
+                                                       const JoinedStrips* strips = nullptr);
 
 }  // namespace varifold

@@ -3,6 +3,7 @@
 #include <varifold/base/bytes.h>
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -31,7 +32,7 @@ float finite(float value, float fallback) { return std::isfinite(value) ? value 
 /// Builds the JSON and the binary chunk side by side.
 class GlbBuilder {
  public:
-  explicit GlbBuilder(const TriangleMesh& mesh) : mesh_(mesh) {
+  GlbBuilder(const TriangleMesh& mesh, const JoinedStrips* strips) : mesh_(mesh), strips_(strips) {
     document_["asset"] = {{"version", "2.0"}, {"generator", "Varifold"}};
   }
 
@@ -56,22 +57,39 @@ class GlbBuilder {
   Json primitives() {
     const Json attributes = add_attributes();
     Json result = Json::array();
-    if (mesh_.indices.empty()) {
+    if (mesh_.indices.empty() || (strips_ && strips_->ranges.empty())) {
       constexpr int kPoints = 0;
       result.push_back({{"attributes", attributes}, {"mode", kPoints}});
       return result;
     }
+    if (strips_) return strip_primitives(attributes);
     if (mesh_.ranges.empty()) {
-      result.push_back(
-          {{"attributes", attributes}, {"indices", add_indices(0, mesh_.indices.size())}});
+      result.push_back({{"attributes", attributes}, {"indices", add_indices(mesh_.indices)}});
       return result;
     }
     for (const MaterialRange& range : mesh_.ranges) {
       if (range.triangle_count == 0) continue;
-      result.push_back({{"attributes", attributes},
-                        {"indices", add_indices(3 * std::size_t{range.first_triangle},
-                                                3 * std::size_t{range.triangle_count})},
-                        {"material", range.material}});
+      result.push_back(
+          {{"attributes", attributes},
+           {"indices", add_indices(std::span(mesh_.indices)
+                                       .subspan(3 * std::size_t{range.first_triangle},
+                                                3 * std::size_t{range.triangle_count}))},
+           {"material", range.material}});
+    }
+    return result;
+  }
+
+  Json strip_primitives(const Json& attributes) {
+    constexpr int kTriangleStrip = 5;
+    Json result = Json::array();
+    for (const DrawRange& range : strips_->ranges) {
+      const auto indices =
+          std::span(strips_->indices).subspan(range.first_index, range.index_count);
+      assert(std::find(indices.begin(), indices.end(), kStripRestart) == indices.end());
+      Json primitive = {
+          {"attributes", attributes}, {"indices", add_indices(indices)}, {"mode", kTriangleStrip}};
+      if (!mesh_.ranges.empty()) primitive["material"] = range.material;
+      result.push_back(std::move(primitive));
     }
     return result;
   }
@@ -115,19 +133,18 @@ class GlbBuilder {
   }
 
   /// The largest value of a type would restart a strip, so that it is no index.
-  std::size_t add_indices(std::size_t begin, std::size_t count) {
+  std::size_t add_indices(std::span<const std::uint32_t> indices) {
     const bool is_short = mesh_.positions.size() <= std::numeric_limits<std::uint16_t>::max();
     const std::size_t first = binary_.size();
-    binary_.resize(first + count * (is_short ? 2 : 4));
+    binary_.resize(first + indices.size() * (is_short ? 2 : 4));
     std::byte* const at = binary_.data() + first;
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::uint32_t index = mesh_.indices[begin + i];
+    for (std::size_t i = 0; i < indices.size(); ++i) {
       if (is_short)
-        store_little(at + 2 * i, static_cast<std::uint16_t>(index));
+        store_little(at + 2 * i, static_cast<std::uint16_t>(indices[i]));
       else
-        store_little(at + 4 * i, index);
+        store_little(at + 4 * i, indices[i]);
     }
-    return add_accessor(is_short ? kUint16 : kUint32, "SCALAR", count,
+    return add_accessor(is_short ? kUint16 : kUint32, "SCALAR", indices.size(),
                         add_view(first, kElementArrayBuffer));
   }
 
@@ -235,14 +252,15 @@ class GlbBuilder {
   }
 
   const TriangleMesh& mesh_;
+  const JoinedStrips* strips_;
   Json document_;
   std::vector<std::byte> binary_;
 };
 
 }  // namespace
 
-Result<std::vector<std::byte>> write_glb(const TriangleMesh& mesh) {
-  return GlbBuilder(mesh).build();
+Result<std::vector<std::byte>> write_glb(const TriangleMesh& mesh, const JoinedStrips* strips) {
+  return GlbBuilder(mesh, strips).build();
 }
 
 }  // namespace varifold

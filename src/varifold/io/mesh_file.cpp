@@ -105,12 +105,15 @@ Result<ImportedMesh> read_mesh(const std::filesystem::path& path) {
   return result;
 }
 
-Result<void> write_mesh(const TriangleMesh& mesh, const std::filesystem::path& path) {
+Result<void> write_mesh(const TriangleMesh& mesh, const std::filesystem::path& path,
+                        const JoinedStrips* strips) {
   const auto format = format_of_extension(path);
-  if (format == MeshFormat::kPly) return write_file(path, write_ply(mesh));
+  if (format == MeshFormat::kPly) return write_file(path, write_ply(mesh, {.strips = strips}));
+  if (format == MeshFormat::kObj && strips)
+    return fail(ErrorKind::kUnsupported, path.string() + ": the format has no strips");
   if (format == MeshFormat::kObj) return write_obj_files(mesh, path);
   if (format == MeshFormat::kGlb) {
-    const auto bytes = write_glb(mesh);
+    const auto bytes = write_glb(mesh, strips);
     if (!bytes) return fail_in(path.string(), bytes.error());
     return write_file(path, *bytes);
   }

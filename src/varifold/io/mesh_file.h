@@ -3,6 +3,7 @@
 
 #include <varifold/base/result.h>
 #include <varifold/io/imported_mesh.h>
+#include <varifold/strip/triangle_strips.h>
 #include <cstddef>
 #include <filesystem>
 #include <optional>
@@ -31,8 +32,11 @@ enum class MeshFormat { kPly, kObj, kStl, kGltf, kGlb };
 /// Writes a mesh by the extension of `path`: .ply (binary), .obj (with a .mtl file and image files
 /// beside it where there are materials) or .glb. Files appear whole or not at all. What the format
 /// cannot hold is left out: see unwritten_parts().
+/// `strips` are written in place of the triangles: PLY has restarts, GLB wants them joined by
+/// degenerates, OBJ has no strips (kUnsupported).
 /// Errors: kFailed, the message begins with the path.
-[[nodiscard]] Result<void> write_mesh(const TriangleMesh& mesh, const std::filesystem::path& path);
+[[nodiscard]] Result<void> write_mesh(const TriangleMesh& mesh, const std::filesystem::path& path,
+                                      const JoinedStrips* strips = nullptr);
 
 /// One line for every part of the mesh that write_mesh() would leave out for want of a place in the
 /// format: "materials", ...

@@ -3,6 +3,7 @@
 
 #include <varifold/base/result.h>
 #include <varifold/io/imported_mesh.h>
+#include <varifold/strip/triangle_strips.h>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -24,6 +25,9 @@ namespace varifold {
 
 struct PlyOptions {
   bool ascii = false;  ///< text instead of binary little-endian; floats survive exactly in both
+  /// To be written in place of the triangles, over the vertices of the mesh: as one entry of the
+  /// element "tristrips", with -1 for restarts and between ranges.
+  const JoinedStrips* strips = nullptr;
 };
 
 /// The mesh as a PLY file with float positions, normals (nx ny nz), texture coordinates (s t) and

@@ -1,5 +1,7 @@
 #include <varifold/strip/triangle_strips.h>
 
+#include <algorithm>
+
 namespace varifold {
 
 namespace {
@@ -15,6 +17,12 @@ void append_joint(std::uint32_t first, StripJoin join, std::size_t range_begin,
   indices.push_back(last);
   if ((indices.size() - range_begin) % 2 == 0) indices.push_back(last);
   indices.push_back(first);
+}
+
+bool draws_a_triangle(std::span<const std::uint32_t> strip) {
+  for (std::size_t i = 0; i + 2 < strip.size(); ++i)
+    if (!is_degenerate(strip_triangle(strip, i))) return true;
+  return false;
 }
 
 }  // namespace
@@ -40,6 +48,25 @@ JoinedStrips join_strips(const TriangleStrips& strips, const TriangleMesh& mesh,
                              mesh.ranges.empty() ? 0 : mesh.ranges[r].material});
   }
   return joined;
+}
+
+TriangleStrips strips_of(std::span<const std::uint32_t> indices,
+                         std::span<const DrawRange> ranges) {
+  TriangleStrips strips;
+  strips.indices.reserve(indices.size());
+  for (const DrawRange& range : ranges) {
+    if (range.primitive != Primitive::kStrips) continue;
+    const auto drawn = indices.subspan(range.first_index, range.index_count);
+    for (auto begin = drawn.begin(); begin != drawn.end();) {
+      const auto end = std::find(begin, drawn.end(), kStripRestart);
+      if (draws_a_triangle({begin, end})) {
+        strips.indices.insert(strips.indices.end(), begin, end);
+        strips.end_strip(range.material);
+      }
+      begin = end == drawn.end() ? end : end + 1;
+    }
+  }
+  return strips;
 }
 
 std::vector<std::uint32_t> triangles_of(const TriangleStrips& strips) {

@@ -58,6 +58,11 @@ struct JoinedStrips {
 [[nodiscard]] JoinedStrips join_strips(const TriangleStrips& strips, const TriangleMesh& mesh,
                                        StripJoin join);
 
+/// The strips that an index buffer draws, those without a triangle left out. Their `range` is the
+/// material of the DrawRange. Ranges of lists are ignored. O(indices).
+[[nodiscard]] TriangleStrips strips_of(std::span<const std::uint32_t> indices,
+                                       std::span<const DrawRange> ranges);
+
 /// The triangles of the strips, without the degenerate ones, in the order of the strips and of the
 /// material ranges; three indices each. O(indices).
 [[nodiscard]] std::vector<std::uint32_t> triangles_of(const TriangleStrips& strips);
