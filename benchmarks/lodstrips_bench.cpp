@@ -5,7 +5,7 @@
 #include <benchmarks/benchmarks.h>
 #include <benchmarks/level_tours.h>
 #include <varifold/models/common/extract_level.h>
-#include <varifold/models/lodstrips/block_form.h>
+#include <varifold/models/lodstrips/block_cursor.h>
 #include <varifold/models/lodstrips/grouped_cursor.h>
 #include <varifold/models/lodstrips/static_build.h>
 #include <varifold/models/lodstrips/thesis_cursor.h>

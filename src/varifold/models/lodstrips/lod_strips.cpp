@@ -126,6 +126,8 @@ void LodStripsInstance::go_to_level(std::uint32_t level) {
 DrawList LodStripsInstance::draw_list() {
   DrawList list = draw_vertices(model_->attributes());
   std::visit([&](auto& cursor) { cursor.fill(list); }, cursor_);
+  const std::uint32_t finest = model_->finest_level();
+  list.level = finest > 0 ? static_cast<float>(level()) / static_cast<float>(finest) : 1;
   return list;
 }
 
