@@ -5,7 +5,7 @@
 #include <benchmarks/benchmarks.h>
 #include <benchmarks/level_tours.h>
 #include <varifold/models/common/extract_level.h>
-#include <varifold/models/lodstrips/block_form.h>
+#include <varifold/models/lodstrips/block_cursor.h>
 #include <varifold/models/lodstrips/grouped_cursor.h>
 #include <varifold/models/lodstrips/static_build.h>
 #include <varifold/models/lodstrips/thesis_cursor.h>
@@ -105,6 +105,32 @@ void tour(State& state, const Source& source,
       Counter(static_cast<double>(steps), Counter::kIsIterationInvariantRate);
 }
 
+// Steps as small as those from frame to frame: 200 times ten levels down and up again. Microseconds
+// a step with its draw list.
+template <class Form>
+void small_steps(State& state, const Source& source, std::uint32_t divisor) {
+  constexpr std::uint32_t kStops = 200, kLevels = 10;
+  const DetailedMesh& input = detailed(source.mesh);
+  const LevelTable table(input.sequence);
+  const auto form = Form::build(input, stripify(input.mesh, source.options));
+  auto cursor = Form::cursor(form, table, input.mesh);
+  const std::uint32_t start = table.finest_level() / divisor;
+  DrawList list;
+  const auto stop_at = [&](std::uint32_t level) {
+    cursor.go_to_level(level);
+    cursor.fill(list);
+    benchmark::DoNotOptimize(list);
+  };
+  stop_at(start);
+  for (auto _ : state) {
+    for (std::uint32_t i = 1; i <= kStops; ++i) stop_at(start - i * kLevels);
+    for (std::uint32_t i = kStops; i-- > 0;) stop_at(start - i * kLevels);
+  }
+  state.counters["ranges"] = static_cast<double>(list.ranges.size());
+  state.counters["us/step"] =
+      Counter(2e-6 * kStops, Counter::kIsIterationInvariantRate | Counter::kInvert);
+}
+
 // How strips decline: counters named by the percentage of the vertices.
 void decline(State& state, const Source& source) {
   const DetailedMesh& input = detailed(source.mesh);
@@ -143,6 +169,19 @@ void add_form(const std::string& suffix, const Source& source) {
 }  // namespace
 
 void register_lodstrips() {
+  for (const std::string& name : present({"bunny.ply", "dragon.ply"}))
+    for (const std::uint32_t divisor : {1u, 4u}) {
+      const Source source{name, {.max_indices = kStaticStripIndices}};
+      const std::string suffix = name + "/1:" + std::to_string(divisor);
+      const auto add = [&](const std::string& form,
+                           void (*run)(State&, const Source&, std::uint32_t)) {
+        benchmark::RegisterBenchmark(("lodstrips/small_steps/" + form + "/" + suffix).c_str(),
+                                     [=](State& state) { run(state, source, divisor); });
+      };
+      add("thesis", small_steps<Thesis>);
+      add("grouped", small_steps<Grouped>);
+      add("blocks", small_steps<Blocks>);
+    }
   for (const std::string& name : present({"bunny.ply", "armadillo.ply", "igea.ply"})) {
     add_form<Blocks>(name, {name, {}});
     add_form<CompactBlocks>(name, {name, {}});

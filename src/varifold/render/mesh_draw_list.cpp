@@ -1,5 +1,7 @@
 #include <varifold/render/mesh_draw_list.h>
 
+#include <varifold/view/draw_vertices.h>
+
 namespace varifold {
 
 MeshDrawList::MeshDrawList(const TriangleMesh& mesh) : mesh_(&mesh) {
@@ -19,11 +21,7 @@ MeshDrawList::MeshDrawList(const TriangleMesh& mesh) : mesh_(&mesh) {
 }
 
 DrawList MeshDrawList::list() const {
-  DrawList list;
-  list.positions = mesh_->positions;
-  list.normals = mesh_->normals;
-  list.texcoords = mesh_->texcoords;
-  list.colors = mesh_->colors;
+  DrawList list = draw_vertices(*mesh_);
   list.indices = mesh_->indices;
   list.ranges = ranges_;
   return list;

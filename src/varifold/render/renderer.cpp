@@ -63,8 +63,9 @@ bool same_batch(const DrawRange& a, const DrawRange& b, ColorMode mode) {
          (mode != ColorMode::kLevel || a.level == b.level);
 }
 
-Vec3 linear_base_color(const DrawRange& range, const DrawStyle& style) {
-  if (style.color_mode == ColorMode::kLevel) return linear_from_srgb(level_color(range.level));
+Vec3 linear_base_color(const DrawList& list, const DrawRange& range, const DrawStyle& style) {
+  if (style.color_mode == ColorMode::kLevel)
+    return linear_from_srgb(level_color(list.level * range.level));
   if (style.color_mode == ColorMode::kMaterial && range.material < style.material_colors.size())
     return Vec3(style.material_colors[range.material]);
   return linear_from_srgb(style.plain_color);
@@ -116,7 +117,7 @@ void Renderer::Impl::draw_strips(const gl::Program& program, const DrawList& lis
   const bool colors = style.color_mode == ColorMode::kStrip;
   for (const DrawRange& range : list.ranges) {
     const bool is_strip = range.primitive == Primitive::kStrips;
-    if (!colors) gl::set_uniform(program, "base_color", linear_base_color(range, style));
+    if (!colors) gl::set_uniform(program, "base_color", linear_base_color(list, range, style));
     const std::uint32_t end = range.first_index + range.index_count;
     for (std::uint32_t first = range.first_index, last = first; first < end; first = last + 1) {
       last = is_strip ? first : end;
@@ -140,7 +141,7 @@ void Renderer::Impl::draw_ranges(const gl::Program& program, const DrawList& lis
       batch_counts.push_back(static_cast<GLsizei>(range.index_count));
       batch_offsets.push_back(offset_of(range.first_index));
     }
-    gl::set_uniform(program, "base_color", linear_base_color(first, style));
+    gl::set_uniform(program, "base_color", linear_base_color(list, first, style));
     glMultiDrawElements(first.primitive == Primitive::kTriangles ? GL_TRIANGLES : GL_TRIANGLE_STRIP,
                         batch_counts.data(), GL_UNSIGNED_INT, batch_offsets.data(),
                         static_cast<GLsizei>(batch_counts.size()));

@@ -15,13 +15,14 @@ enum class Primitive : std::uint8_t {
   kStrips,     ///< triangle strips, divided by kStripRestart
 };
 
-/// Part of the index buffer that is drawn in one go.
+/// Part of the index buffer that is drawn in one go; may be empty.
 struct DrawRange {
   std::uint32_t first_index = 0;
   std::uint32_t index_count = 0;
   Primitive primitive = Primitive::kTriangles;
   std::uint32_t material = 0;
-  /// Where the range stands between the coarsest (0) and the finest level (1); only for show.
+  /// Where the range stands between the coarsest (0) and the finest level (1), times that of the
+  /// list; only for show.
   float level = 1;
 };
 
@@ -47,6 +48,7 @@ struct DrawList {
   std::span<const DrawRange> ranges;
   std::span<const ElementRange> changed_vertices;
   std::span<const ElementRange> changed_indices;
+  float level = 1;  ///< of all ranges together, so that models need not touch each of them
 };
 
 /// Triangles in all ranges, the degenerate ones of strips included; O(ranges), and O(indices) for

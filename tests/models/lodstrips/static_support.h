@@ -8,6 +8,7 @@
 #include <varifold/models/lodstrips/thesis_cursor.h>
 #include <varifold/simplify/simplify.h>
 #include <varifold/strip/stripify.h>
+#include <varifold/view/draw_vertices.h>
 #include <algorithm>
 #include <cstdint>
 #include <string>
@@ -102,11 +103,7 @@ inline std::vector<std::uint32_t> spread_levels(std::uint32_t finest) {
 
 template <class Cursor>
 DrawList draw(Cursor& cursor, const TriangleMesh& attributes) {
-  DrawList list;
-  list.positions = attributes.positions;
-  list.normals = attributes.normals;
-  list.texcoords = attributes.texcoords;
-  list.colors = attributes.colors;
+  DrawList list = draw_vertices(attributes);
   cursor.fill(list);
   return list;
 }

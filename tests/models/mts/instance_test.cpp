@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 #include <tests/models/mts/mts_support.h>
-#include <tests/support/count_allocations.h>
 
 #include <varifold/base/random.h>
 #include <varifold/mesh/generators.h>
@@ -106,19 +105,6 @@ TEST(MtsInstance, ChangedRangesCoverAllChanges) {
       const std::uint32_t finest = named.model->finest_level();
       instance.go_to_level(i % 3 == 1 ? instance.level() + 5 : random.below(finest + 1));
     }
-  }
-}
-
-TEST(MtsInstance, AllocatesNothingPerFrame) {
-  Random random(5);
-  for (const NamedMts& named : all_mts()) {
-    MultiresolutionStripsInstance instance(named.model);
-    const std::size_t before = allocations;
-    for (int i = 0; i < 20; ++i) {
-      instance.go_to_level(random.below(named.model->finest_level() + 1));
-      static_cast<void>(instance.draw_list());
-    }
-    EXPECT_EQ(allocations, before) << named.name;
   }
 }
 

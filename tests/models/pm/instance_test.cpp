@@ -5,73 +5,12 @@
 #include <varifold/base/random.h>
 #include <varifold/mesh/generators.h>
 #include <varifold/models/pm/geomorph.h>
-#include <thread>
 
 namespace varifold::test {
 namespace {
 
-// The buffers of an instance, all that go_to_level() may change.
-void expect_same_buffers(const ProgressiveMeshInstance& a, const ProgressiveMeshInstance& b,
-                         const std::string& where) {
-  EXPECT_EQ(a.level(), b.level()) << where;
-  EXPECT_EQ(a.vertex_count(), b.vertex_count()) << where;
-  EXPECT_EQ(a.triangle_count(), b.triangle_count()) << where;
-  EXPECT_TRUE(a.indices() == b.indices()) << where;
-  EXPECT_TRUE(same_attributes(a.vertices(), b.vertices())) << where;
-}
-
 std::string at(const NamedModel& named, std::uint32_t level) {
   return named.name + ", level " + std::to_string(level);
-}
-
-TEST(PmInstance, EveryLevelIsTheMeshByDefinition) {
-  for (const NamedModel& named : all_models()) {
-    ProgressiveMeshInstance instance(named.model);
-    for (const std::uint32_t level : spread_levels(named.model->finest_level())) {
-      instance.go_to_level(level);
-      const TriangleMesh mesh = instance.extract();
-      EXPECT_EQ(mesh_difference(mesh, mesh_at_level(named.detailed, level)), "")
-          << at(named, level);
-      EXPECT_EQ(instance.vertex_count(), named.model->vertex_count(level));
-      EXPECT_EQ(instance.triangle_count(), named.model->triangle_count(level));
-      EXPECT_EQ(mesh.vertex_count(), instance.vertex_count());
-      EXPECT_EQ(mesh.triangle_count(), instance.triangle_count());
-    }
-  }
-}
-
-TEST(PmInstance, DownAndUpIsTheIdentity) {
-  for (const NamedModel& named : all_models()) {
-    const std::vector<std::uint32_t> levels = spread_levels(named.model->finest_level());
-    std::vector<ProgressiveMeshInstance> fresh;
-    ProgressiveMeshInstance walker(named.model);
-    for (const std::uint32_t level : levels) {
-      fresh.emplace_back(named.model);
-      fresh.back().go_to_level(level);
-      walker.go_to_level(level);
-      expect_same_buffers(walker, fresh.back(), at(named, level));
-    }
-    for (std::size_t i = levels.size(); i-- > 0;) {
-      walker.go_to_level(levels[i]);
-      expect_same_buffers(walker, fresh[i], at(named, levels[i]) + " on the way down");
-    }
-  }
-}
-
-TEST(PmInstance, RandomSeeks) {
-  Random random(3);
-  for (const NamedModel& named : all_models()) {
-    ProgressiveMeshInstance walker(named.model);
-    for (int i = 0; i < 12; ++i) {
-      const std::uint32_t level = random.below(named.model->finest_level() + 1);
-      ProgressiveMeshInstance fresh(named.model);
-      fresh.go_to_level(level);
-      walker.go_to_level(level);
-      expect_same_buffers(walker, fresh, at(named, level));
-    }
-    walker.go_to_level(0xffffffffu);
-    EXPECT_EQ(walker.level(), named.model->finest_level());
-  }
 }
 
 TEST(PmModel, LevelsByCountErrorAndFraction) {
@@ -178,29 +117,6 @@ TEST(PmInstance, AllocatesNothingPerFrame) {
     }
     EXPECT_EQ(allocations, before) << named.name;
   }
-}
-
-TEST(PmInstance, ThreadsShareAModel) {
-  const NamedModel named = make_model({"icosphere", icosphere(2000)}, Placement::kOptimal);
-  const std::uint32_t finest = named.model->finest_level();
-  const auto wander = [&](std::uint64_t seed) {
-    Random random(seed);
-    ProgressiveMeshInstance instance(named.model);
-    for (int i = 0; i < 200; ++i) {
-      instance.go_to_level(random.below(finest + 1));
-      static_cast<void>(instance.draw_list());
-    }
-    instance.go_to_level(finest / 2);
-    return instance.extract();
-  };
-  TriangleMesh a, b;
-  std::thread first([&] { a = wander(1); });
-  std::thread second([&] { b = wander(2); });
-  first.join();
-  second.join();
-  EXPECT_TRUE(same_attributes(a, b));
-  EXPECT_TRUE(a.indices == b.indices);
-  EXPECT_EQ(mesh_difference(a, mesh_at_level(named.detailed, finest / 2)), "");
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 
 #include <varifold/base/random.h>
 #include <varifold/models/common/uniform_model.h>
-#include <thread>
 
 namespace varifold::test {
 namespace {
@@ -135,27 +134,6 @@ TEST(StripsInstance, AllocatesNothingPerFrame) {
     }
     EXPECT_EQ(allocations, before) << named.name;
   }
-}
-
-TEST(StripsInstance, ThreadsShareAModel) {
-  const NamedFramework named = make_framework({"icosphere", icosphere(2000)});
-  const std::uint32_t finest = named.model->finest_level();
-  const auto wander = [&](std::uint64_t seed) {
-    Random random(seed);
-    StripFrameworkInstance instance(named.model);
-    for (int i = 0; i < 100; ++i) {
-      instance.go_to_level(random.below(finest + 1));
-      static_cast<void>(instance.draw_list());
-    }
-    instance.go_to_level(finest / 2);
-    return instance.slots();
-  };
-  std::vector<std::uint32_t> a, b;
-  std::thread first([&] { a = wander(1); });
-  std::thread second([&] { b = wander(2); });
-  first.join();
-  second.join();
-  EXPECT_TRUE(a == b);
 }
 
 }  // namespace

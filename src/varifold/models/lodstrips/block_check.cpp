@@ -1,6 +1,7 @@
 #include <varifold/models/lodstrips/block_check.h>
 
 #include <varifold/models/lodstrips/block_records.h>
+#include <varifold/view/draw_list.h>
 #include <algorithm>
 #include <array>
 #include <numeric>

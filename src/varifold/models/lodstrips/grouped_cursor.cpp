@@ -17,8 +17,11 @@ GroupedCursor::GroupedCursor(const GroupedForm& form, const LevelTable& table,
       counts_(form.strips.count(), 0),
       ranges_(form.strips, attributes) {
   offsets_.reserve(form.strips.count());
-  for (std::uint32_t s = 0; s < form.strips.count(); ++s)
+  for (std::uint32_t s = 0; s < form.strips.count(); ++s) {
     offsets_.push_back(form.strips.first[s] * sizeof(std::uint32_t));
+    const std::uint32_t length = slots_.length(s);
+    counts_[s] = length < kLeastStrip ? 0 : static_cast<std::int32_t>(length);
+  }
   changed_.reset(form.strips.indices.size());
 }
 
@@ -26,6 +29,13 @@ void GroupedCursor::go_to_level(std::uint32_t level) {
   level = std::min(level, table_.finest_level());
   while (level_ > level) collapse();
   while (level_ < level) split();
+}
+
+void GroupedCursor::resize(std::uint32_t strip, std::uint32_t before) {
+  const std::uint32_t length = slots_.length(strip);
+  if (length == before) return;
+  counts_[strip] = length < kLeastStrip ? 0 : static_cast<std::int32_t>(length);
+  ranges_.resize(strip, before, length);
 }
 
 void GroupedCursor::collapse() {
@@ -44,7 +54,9 @@ void GroupedCursor::collapse() {
     const std::uint16_t* removals = position + GroupedForm::collapses(counts);
     const std::uint16_t* end = removals + GroupedForm::removals(counts);
     while (position < removals) slots_.set(strip, *position++, target);
+    const std::uint32_t before = slots_.length(strip);
     while (position < end) slots_.remove(strip, *position++);
+    resize(strip, before);
     position_ = static_cast<std::size_t>(end - form_.positions.data());
     changed_.mark(slots_.first(strip), slots_.capacity(strip));
   } while ((group & GroupedForm::kLast) == 0);
@@ -61,7 +73,9 @@ void GroupedCursor::split() {
     const std::uint16_t* position = form_.positions.data() + position_;
     const std::uint16_t* removals = position - GroupedForm::removals(counts);
     const std::uint16_t* begin = removals - GroupedForm::collapses(counts);
+    const std::uint32_t before = slots_.length(strip);
     while (position > removals) slots_.restore(strip, *--position);
+    resize(strip, before);
     while (position > begin) slots_.set(strip, *--position, vertex);
     position_ = static_cast<std::size_t>(begin - form_.positions.data());
     changed_.mark(slots_.first(strip), slots_.capacity(strip));
@@ -71,12 +85,8 @@ void GroupedCursor::split() {
 }
 
 void GroupedCursor::fill(DrawList& list) {
-  for (std::uint32_t s = 0; s < slots_.strip_count(); ++s) {
-    const std::uint32_t length = slots_.length(s);
-    counts_[s] = length < kLeastStrip ? 0 : static_cast<std::int32_t>(length);
-  }
   list.indices = slots_.indices();
-  list.ranges = ranges_.update(slots_.lengths());
+  list.ranges = ranges_.ranges();
   list.changed_indices = changed_.take();
 }
 

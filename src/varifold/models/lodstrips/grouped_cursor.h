@@ -22,12 +22,11 @@ class GroupedCursor {
   /// At most the finest. O(changes and shifted slots between).
   void go_to_level(std::uint32_t level);
   /// Sets the indices, ranges and changed indices of the list. The buffer depends on the level
-  /// alone, byte for byte. O(strips).
+  /// alone, byte for byte. O(blocks of indices, see ChangedBlocks).
   void fill(DrawList& list);
 
   /// For glMultiDrawElements: per strip, how many indices to draw (0 where fewer than three), and
-  /// where they begin, in bytes. Those of a material range are neighbours. counts() are of the last
-  /// fill().
+  /// where they begin, in bytes. Those of a material range are neighbours.
   [[nodiscard]] std::span<const std::int32_t> counts() const { return counts_; }
   [[nodiscard]] std::span<const std::size_t> offsets() const { return offsets_; }
 
@@ -36,6 +35,8 @@ class GroupedCursor {
  private:
   void collapse();
   void split();
+  /// The strip was `before` indices long.
+  void resize(std::uint32_t strip, std::uint32_t before);
 
   const GroupedForm& form_;
   const LevelTable& table_;

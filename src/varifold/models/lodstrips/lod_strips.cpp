@@ -4,6 +4,7 @@
 #include <varifold/models/common/level_table_bytes.h>
 #include <varifold/models/common/mesh_bytes.h>
 #include <varifold/models/common/uniform_model.h>
+#include <varifold/view/draw_vertices.h>
 #include <array>
 #include <string>
 #include <utility>
@@ -123,12 +124,10 @@ void LodStripsInstance::go_to_level(std::uint32_t level) {
 }
 
 DrawList LodStripsInstance::draw_list() {
-  DrawList list;
-  list.positions = model_->attributes().positions;
-  list.normals = model_->attributes().normals;
-  list.texcoords = model_->attributes().texcoords;
-  list.colors = model_->attributes().colors;
+  DrawList list = draw_vertices(model_->attributes());
   std::visit([&](auto& cursor) { cursor.fill(list); }, cursor_);
+  const std::uint32_t finest = model_->finest_level();
+  list.level = finest > 0 ? static_cast<float>(level()) / static_cast<float>(finest) : 1;
   return list;
 }
 

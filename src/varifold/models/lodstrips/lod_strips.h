@@ -8,6 +8,7 @@
 #include <varifold/mesh/triangle_mesh.h>
 #include <varifold/models/common/level_queries.h>
 #include <varifold/models/common/level_table.h>
+#include <varifold/models/lodstrips/block_cursor.h>
 #include <varifold/models/lodstrips/block_form.h>
 #include <varifold/models/lodstrips/grouped_cursor.h>
 #include <varifold/models/lodstrips/grouped_form.h>

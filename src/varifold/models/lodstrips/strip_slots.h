@@ -35,7 +35,6 @@ class StripSlots {
     return first_[strip + 1] - first_[strip];
   }
   [[nodiscard]] std::uint32_t length(std::uint32_t strip) const { return lengths_[strip]; }
-  [[nodiscard]] const std::vector<std::uint32_t>& lengths() const { return lengths_; }
   [[nodiscard]] const std::vector<std::uint32_t>& indices() const { return indices_; }
   [[nodiscard]] std::uint32_t at(std::uint32_t strip, std::uint32_t position) const {
     return indices_[first_[strip] + position];

@@ -47,8 +47,10 @@ void ThesisCursor::collapse() {
       const std::uint32_t vertex = recovery_.at(record.strip, position);
       recovery_.set(record.strip, position, table_.target(vertex));
     } else {
+      const std::uint32_t before = recovery_.length(record.strip);
       for (std::int32_t n = record.r > 0 ? record.r : -record.r; n > 0; --n)
         recovery_.remove(record.strip, position);
+      ranges_.resize(record.strip, before, recovery_.length(record.strip));
     }
   }
 }
@@ -64,8 +66,10 @@ void ThesisCursor::split() {
             record.r == 0 ? 0 : static_cast<std::uint32_t>(record.r - ThesisForm::kMoved);
         recovery_.set(record.strip, position, vertex_count_ + moved);
       } else {
+        const std::uint32_t before = recovery_.length(record.strip);
         for (std::int32_t n = record.r > 0 ? record.r : -record.r; n > 0; --n)
           recovery_.restore(record.strip, position);
+        ranges_.resize(record.strip, before, recovery_.length(record.strip));
       }
     }
     if (cursor_ == 0 || (form_.records[cursor_ - 1].position & ThesisForm::kLast) != 0) break;
@@ -84,7 +88,7 @@ void ThesisCursor::fill(DrawList& list) {
   }
   modified_.clear();
   list.indices = draw_;
-  list.ranges = ranges_.update(recovery_.lengths());
+  list.ranges = ranges_.ranges();
   list.changed_indices = changed_.take();
 }
 

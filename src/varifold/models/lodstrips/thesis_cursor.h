@@ -22,7 +22,7 @@ class ThesisCursor {
   /// At most the finest. O(changes and shifted slots between).
   void go_to_level(std::uint32_t level);
   /// Refreshes the draw strips, and sets the indices, ranges and changed indices of the list. The
-  /// buffer depends on the level alone, byte for byte. O(strips + touched slots).
+  /// buffer depends on the level alone, byte for byte. O(touched slots).
   void fill(DrawList& list);
   [[nodiscard]] std::size_t bytes() const;
 

@@ -2,6 +2,7 @@
 
 #include <varifold/models/common/extract_level.h>
 #include <varifold/models/common/uniform_model.h>
+#include <varifold/view/draw_vertices.h>
 #include <algorithm>
 
 namespace varifold {
@@ -96,12 +97,7 @@ void MultiresolutionStripsInstance::append_ranges(std::vector<DrawRange>& ranges
 DrawList MultiresolutionStripsInstance::draw_list() {
   ranges_.clear();
   append_ranges(ranges_);
-  const TriangleMesh& mesh = model_->attributes();
-  DrawList list;
-  list.positions = mesh.positions;
-  list.normals = mesh.normals;
-  list.texcoords = mesh.texcoords;
-  list.colors = mesh.colors;
+  DrawList list = draw_vertices(model_->attributes());
   list.indices = indices_;
   list.ranges = ranges_;
   list.changed_indices = changed_.take();
@@ -118,11 +114,7 @@ TriangleMesh MultiresolutionStripsInstance::extract() const {
   std::vector<DrawRange> ranges;
   append_ranges(ranges);
   const TriangleMesh& mesh = model_->attributes();
-  DrawList list;
-  list.positions = mesh.positions;
-  list.normals = mesh.normals;
-  list.texcoords = mesh.texcoords;
-  list.colors = mesh.colors;
+  DrawList list = draw_vertices(mesh);
   list.indices = indices_;
   list.ranges = ranges;
   return extract_level(mesh, vertex_count(), list);

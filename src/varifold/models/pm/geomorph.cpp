@@ -1,6 +1,7 @@
 #include <varifold/models/pm/geomorph.h>
 
 #include <varifold/models/pm/instance.h>
+#include <varifold/view/draw_vertices.h>
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -114,11 +115,7 @@ void Geomorph::blend(float t) {
 }
 
 DrawList Geomorph::draw_list() {
-  DrawList list;
-  list.positions = mesh_.positions;
-  list.normals = mesh_.normals;
-  list.texcoords = mesh_.texcoords;
-  list.colors = mesh_.colors;
+  DrawList list = draw_vertices(mesh_);
   list.indices = mesh_.indices;
   list.ranges = ranges_;
   const std::span changed(changed_);

@@ -1,6 +1,7 @@
 #include <varifold/models/pm/instance.h>
 
 #include <varifold/models/common/extract_level.h>
+#include <varifold/view/draw_vertices.h>
 #include <algorithm>
 #include <cassert>
 
@@ -67,29 +68,36 @@ void ProgressiveMeshInstance::go_to_level(std::uint32_t level) {
   update_ranges();
 }
 
+// The slots of a split, whose first new vertex is `vertex`, get what `value` says of each vertex.
+template <class Value>
+inline void ProgressiveMeshInstance::set_slots(const std::uint32_t* slots, VertexSplit split,
+                                               std::uint32_t vertex, const Value& value) {
+  std::uint32_t* const indices = indices_.data();
+  if (split.vertices == 1) {
+    const std::uint32_t common = value(vertex);
+    for (std::uint32_t i = 0; i < split.slots; ++i) {
+      const std::uint32_t place = slots[i] & ~kLastSlot;
+      indices[place] = common;
+      changed_indices_.mark(place);
+    }
+    return;
+  }
+  for (std::uint32_t i = 0; i < split.slots; ++i) {
+    const std::uint32_t place = slots[i] & ~kLastSlot;
+    if (place != kNoSlot) {
+      indices[place] = value(vertex);
+      changed_indices_.mark(place);
+    }
+    if (slots[i] & kLastSlot) ++vertex;
+  }
+}
+
 void ProgressiveMeshInstance::split_to(std::uint32_t level) {
   const ProgressiveMeshData& data = model_->data();
   const std::uint32_t* slot = data.slots.data() + slot_cursor_;
-  std::uint32_t* indices = indices_.data();
   for (std::uint32_t k = level_; k < level; ++k) {
     const VertexSplit split = data.splits[k];
-    if (split.vertices == 1) {
-      for (std::uint32_t i = 0; i < split.slots; ++i) {
-        const std::uint32_t place = slot[i] & ~kLastSlot;
-        indices[place] = vertex_count_;
-        changed_indices_.mark(place);
-      }
-    } else {
-      std::uint32_t vertex = vertex_count_;
-      for (std::uint32_t i = 0; i < split.slots; ++i) {
-        const std::uint32_t place = slot[i] & ~kLastSlot;
-        if (place != kNoSlot) {
-          indices[place] = vertex;
-          changed_indices_.mark(place);
-        }
-        if (slot[i] & kLastSlot) ++vertex;
-      }
-    }
+    set_slots(slot, split, vertex_count_, [](std::uint32_t vertex) { return vertex; });
     slot += split.slots;
     vertex_count_ += split.vertices;
     triangle_count_ += split.triangles;
@@ -106,30 +114,13 @@ void ProgressiveMeshInstance::split_to(std::uint32_t level) {
 void ProgressiveMeshInstance::collapse_to(std::uint32_t level) {
   const ProgressiveMeshData& data = model_->data();
   const std::uint32_t* slot = data.slots.data() + slot_cursor_;
-  std::uint32_t* indices = indices_.data();
   for (std::uint32_t k = level_; k-- > level;) {
     const VertexSplit split = data.splits[k];
     slot -= split.slots;
     vertex_count_ -= split.vertices;
     triangle_count_ -= split.triangles;
-    if (split.vertices == 1) {
-      const std::uint32_t target = data.target[vertex_count_];
-      for (std::uint32_t i = 0; i < split.slots; ++i) {
-        const std::uint32_t place = slot[i] & ~kLastSlot;
-        indices[place] = target;
-        changed_indices_.mark(place);
-      }
-    } else {
-      std::uint32_t vertex = vertex_count_;
-      for (std::uint32_t i = 0; i < split.slots; ++i) {
-        const std::uint32_t place = slot[i] & ~kLastSlot;
-        if (place != kNoSlot) {
-          indices[place] = data.target[vertex];
-          changed_indices_.mark(place);
-        }
-        if (slot[i] & kLastSlot) ++vertex;
-      }
-    }
+    set_slots(slot, split, vertex_count_,
+              [&](std::uint32_t vertex) { return data.target[vertex]; });
     if (data.first_placed.empty()) continue;
     for (std::uint32_t j = data.first_placed[k]; j < data.first_placed[k + 1]; ++j)
       place(data.placed_vertex[j], data.placed, j);
@@ -148,26 +139,24 @@ void ProgressiveMeshInstance::update_ranges() {
   }
 }
 
-DrawList ProgressiveMeshInstance::draw_list() {
+void ProgressiveMeshInstance::append_ranges(std::vector<DrawRange>& ranges) const {
   const TriangleMesh& mesh = model_->data().mesh;
   const std::uint32_t finest = model_->finest_level();
   const float fraction = finest > 0 ? static_cast<float>(level_) / static_cast<float>(finest) : 1;
-  ranges_.clear();
   if (model_->data().triangle_level.empty()) {
     const std::uint32_t material = mesh.ranges.empty() ? 0 : mesh.ranges[0].material;
-    ranges_.push_back({0, 3 * triangle_count_, Primitive::kTriangles, material, fraction});
-  } else {
-    for (std::size_t r = 0; r < mesh.ranges.size(); ++r)
-      ranges_.push_back({3 * mesh.ranges[r].first_triangle, 3 * range_counts_[r],
-                         Primitive::kTriangles, mesh.ranges[r].material, fraction});
+    ranges.push_back({0, 3 * triangle_count_, Primitive::kTriangles, material, fraction});
+    return;
   }
+  for (std::size_t r = 0; r < mesh.ranges.size(); ++r)
+    ranges.push_back({3 * mesh.ranges[r].first_triangle, 3 * range_counts_[r],
+                      Primitive::kTriangles, mesh.ranges[r].material, fraction});
+}
 
-  const TriangleMesh& vertices = this->vertices();
-  DrawList list;
-  list.positions = vertices.positions;
-  list.normals = vertices.normals;
-  list.texcoords = vertices.texcoords;
-  list.colors = vertices.colors;
+DrawList ProgressiveMeshInstance::draw_list() {
+  ranges_.clear();
+  append_ranges(ranges_);
+  DrawList list = draw_vertices(vertices());
   list.indices = indices_;
   list.ranges = ranges_;
   list.changed_indices = changed_indices_.take();
@@ -182,32 +171,12 @@ std::size_t ProgressiveMeshInstance::bytes() const {
 }
 
 TriangleMesh ProgressiveMeshInstance::extract() const {
-  const TriangleMesh& full = model_->data().mesh;
-  const TriangleMesh& attributes = vertices();
-  TriangleMesh mesh;
-  const auto prefix = [&](const auto& from, auto& to) {
-    if (!from.empty()) to.assign(from.begin(), from.begin() + vertex_count_);
-  };
-  prefix(attributes.positions, mesh.positions);
-  prefix(attributes.normals, mesh.normals);
-  prefix(attributes.texcoords, mesh.texcoords);
-  prefix(attributes.colors, mesh.colors);
-  mesh.materials = full.materials;
-  mesh.images = full.images;
-
-  if (model_->data().triangle_level.empty()) {
-    mesh.indices.assign(indices_.begin(), indices_.begin() + 3 * std::size_t{triangle_count_});
-    if (!full.ranges.empty() && triangle_count_ > 0)
-      mesh.ranges.push_back({full.ranges[0].material, 0, triangle_count_});
-    return mesh;
-  }
-  for (std::size_t r = 0; r < full.ranges.size(); ++r) {
-    if (range_counts_[r] == 0) continue;
-    const auto first = indices_.begin() + 3 * std::size_t{full.ranges[r].first_triangle};
-    mesh.ranges.push_back({full.ranges[r].material, mesh.triangle_count(), range_counts_[r]});
-    mesh.indices.insert(mesh.indices.end(), first, first + 3 * std::size_t{range_counts_[r]});
-  }
-  return mesh;
+  std::vector<DrawRange> ranges;
+  append_ranges(ranges);
+  DrawList list = draw_vertices(vertices());
+  list.indices = indices_;
+  list.ranges = ranges;
+  return extract_level(model_->attributes(), vertex_count_, list);
 }
 
 }  // namespace varifold

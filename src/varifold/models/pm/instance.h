@@ -40,14 +40,18 @@ class ProgressiveMeshInstance {
   /// Memory of the instance alone.
   [[nodiscard]] std::size_t bytes() const;
 
-  /// A copy of the level as a mesh of its own, with materials. O(level).
+  /// A copy of the level as a mesh of its own, its ranges sorted by material. O(level).
   [[nodiscard]] TriangleMesh extract() const;
 
  private:
+  template <class Value>
+  void set_slots(const std::uint32_t* slots, VertexSplit split, std::uint32_t vertex,
+                 const Value& value);
   void split_to(std::uint32_t level);
   void collapse_to(std::uint32_t level);
   void place(std::uint32_t vertex, const TriangleMesh& from, std::uint32_t index);
   void update_ranges();
+  void append_ranges(std::vector<DrawRange>& ranges) const;
 
   std::shared_ptr<const ProgressiveMesh> model_;
   std::uint32_t level_ = 0;

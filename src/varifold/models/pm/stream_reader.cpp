@@ -3,6 +3,7 @@
 #include <varifold/models/common/error_code.h>
 #include <varifold/models/common/mesh_bytes.h>
 #include <varifold/models/pm/slot_order.h>
+#include <varifold/view/draw_vertices.h>
 #include <algorithm>
 #include <string>
 
@@ -287,8 +288,7 @@ void ProgressiveStreamReader::take_placed(std::uint32_t first_new) {
 }
 
 DrawList ProgressiveStreamReader::draw_list() {
-  DrawList list;
-  if (!has_base()) return list;
+  if (!has_base()) return {};
   const float fraction =
       header_.levels > 0 ? static_cast<float>(level()) / static_cast<float>(header_.levels) : 1;
   draw_ranges_.clear();
@@ -298,10 +298,7 @@ DrawList ProgressiveStreamReader::draw_list() {
                               header_.ranges[r].material, fraction});
   const std::vector<std::uint32_t>& corners = state_.surface.corners();
   changed_ = {{0, vertex_count()}, {0, static_cast<std::uint32_t>(corners.size())}};
-  list.positions = data_.mesh.positions;
-  list.normals = data_.mesh.normals;
-  list.texcoords = data_.mesh.texcoords;
-  list.colors = data_.mesh.colors;
+  DrawList list = draw_vertices(data_.mesh);
   list.indices = corners;
   list.ranges = draw_ranges_;
   list.changed_vertices = std::span(changed_).first(1);

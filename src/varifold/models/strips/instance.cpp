@@ -2,6 +2,7 @@
 
 #include <varifold/models/common/extract_level.h>
 #include <varifold/models/strips/strip_pieces.h>
+#include <varifold/view/draw_vertices.h>
 #include <algorithm>
 #include <cassert>
 #include <utility>
@@ -110,11 +111,7 @@ DrawList StripFrameworkInstance::draw_list() {
   const std::uint32_t more = mesh.vertex_count() - base;
   const float fraction =
       more > 0 ? static_cast<float>(vertex_count_ - base) / static_cast<float>(more) : 1;
-  DrawList list;
-  list.positions = mesh.positions;
-  list.normals = mesh.normals;
-  list.texcoords = mesh.texcoords;
-  list.colors = mesh.colors;
+  DrawList list = draw_vertices(mesh);
   list.indices = pages_.indices();
   list.ranges = pages_.ranges(fraction);
   list.changed_indices = pages_.changed();
@@ -148,11 +145,7 @@ TriangleMesh StripFrameworkInstance::extract() const {
                      ranges.push_back({begin, count, Primitive::kStrips, material});
                    });
   }
-  DrawList list;
-  list.positions = mesh.positions;
-  list.normals = mesh.normals;
-  list.texcoords = mesh.texcoords;
-  list.colors = mesh.colors;
+  DrawList list = draw_vertices(mesh);
   list.indices = indices;
   list.ranges = ranges;
   if (level_ != kNone) return extract_level(mesh, vertex_count_, list);
