@@ -100,9 +100,9 @@ template <class Model>
   by_view = by_view && camera;
   if constexpr (HasFronts<Model>) {
     if (by_view || !places.empty()) {
-      const auto front = ModelKind<Model>::adapt(
-          instance, make_criteria(places, by_view ? camera : nullptr),
-          static_cast<float>(options.pixels.value_or(0)), options.triangles.value_or(kNone));
+      const FrontStatistics front = instance.adapt(
+          make_criteria(places, by_view ? camera : nullptr),
+          {static_cast<float>(options.pixels.value_or(0)), options.triangles.value_or(kNone)});
       return {0, front.tolerance, true, front.forced_splits, front.triangles};
     }
   } else if (!places.empty()) {
