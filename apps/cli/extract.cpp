@@ -17,12 +17,6 @@ struct ExtractCommand {
   std::string input, output;
 };
 
-void warn_of_base(const ExtractCommand& command, std::uint32_t base) {
-  if (command.level.triangles && *command.level.triangles < base)
-    print_message(command.input + ": warning: the base has " + format_count(base) +
-                  " triangles; there is nothing coarser");
-}
-
 template <class Model>
 CommandResult extract_from(const ExtractCommand& command, const std::shared_ptr<const Model>& model,
                            const Stopwatch& watch) {
@@ -33,7 +27,7 @@ CommandResult extract_from(const ExtractCommand& command, const std::shared_ptr<
   const ChosenLevel chosen =
       go_to_choice<Model>(instance, command.level, command.places, camera ? &*camera : nullptr,
                           asks_for_view(command.view, command.level));
-  warn_of_base(command, model->triangle_count(0));
+  warn_of_base(command.input, command.level, model->vertex_count(0), model->triangle_count(0));
   const TriangleMesh mesh = without_unused_vertices(instance.extract());
   if (auto written = write_mesh_loudly(mesh, output); !written)
     return tl::unexpected(written.error());

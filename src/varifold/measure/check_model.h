@@ -64,7 +64,9 @@ using CheckedModel = std::remove_cvref_t<decltype(std::declval<const Instance&>(
 /// extract()
 ///   gives, or, of the full front and the base, than the level has
 /// - front_over_budget: more triangles than asked for, and than the base has
-/// - front_too_coarse: a triangle of the full mesh is missing where a sphere or a plane asks for it
+/// - front_too_coarse: a triangle of the full mesh is missing that reaches into where a sphere or a
+/// plane asks
+///   for full detail
 /// - front_zero_area: triangles on a line, the full mesh having none and the levels looked at
 /// neither
 /// - missing_dependency: steps that may collapse before what made the triangles around them

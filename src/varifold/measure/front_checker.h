@@ -44,9 +44,11 @@ class FrontChecker {
     for (std::uint32_t number = 0; number < options_.fronts; ++number) {
       if (!go_on(number)) return false;
       check_front(number);
+      ++fronts_checked_;
     }
     return true;
   }
+  [[nodiscard]] std::uint32_t fronts_checked() const { return fronts_checked_; }
 
   void append_faults(std::vector<Fault>& faults) {
     faults_.append_to(faults);
@@ -124,6 +126,7 @@ class FrontChecker {
   TriangleMesh full_drawn_;
   std::vector<check::PlacedTriangle> full_placed_, full_triangles_, base_triangles_;
   check::PlaceFaults faults_{"front", "front_"};
+  std::uint32_t fronts_checked_ = 0;
 };
 
 }  // namespace varifold

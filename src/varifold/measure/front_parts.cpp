@@ -88,12 +88,11 @@ bool has_all_asked_for(const SeededFront& front, const TriangleMesh& full,
   float reach = 0;
   for (const Vec3& p : full.positions)
     reach = std::max({reach, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  std::vector<bool> is_asked_for(full.vertex_count());
-  for (std::uint32_t v = 0; v < full.vertex_count(); ++v)
-    is_asked_for[v] = front.asks_for_all_at(full.positions[v], 1e-5f * reach);
   for (std::uint32_t t = 0; t < full.triangle_count(); ++t) {
     const std::uint32_t* const c = &full.indices[3 * std::size_t{t}];
-    if (is_asked_for[c[0]] && is_asked_for[c[1]] && is_asked_for[c[2]] &&
+    const std::array<Vec3, 3> corners{full.positions[c[0]], full.positions[c[1]],
+                                      full.positions[c[2]]};
+    if (front.asks_for(corners, 1e-5f * reach) &&
         !std::binary_search(found.begin(), found.end(), placed[t]))
       return false;
   }

@@ -192,7 +192,7 @@ class ModelChecker {
       };
       if (!checker.run(report_front)) return false;
       checker.append_faults(result.faults);
-      result.fronts_checked = options_.fronts;
+      result.fronts_checked = checker.fronts_checked();
     }
     return true;
   }

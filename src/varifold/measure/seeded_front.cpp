@@ -1,6 +1,7 @@
 #include <varifold/measure/seeded_front.h>
 
 #include <varifold/base/random.h>
+#include <varifold/measure/closest_point.h>
 #include <varifold/view/camera.h>
 #include <algorithm>
 #include <cmath>
@@ -75,11 +76,16 @@ class Maker {
 
 }  // namespace
 
-bool SeededFront::asks_for_all_at(const Vec3& point, float margin) const {
+bool SeededFront::asks_for(const std::array<Vec3, 3>& triangle, float margin) const {
   if (options.max_triangles != kNone) return false;
-  const auto& [view, sphere, plane] = criteria;
-  if (sphere && glm::length(point - sphere->center) <= sphere->radius - margin) return true;
-  return plane && plane->signed_distance(point) >= margin;
+  if (criteria.plane)
+    for (const Vec3& corner : triangle)
+      if (criteria.plane->signed_distance(corner) >= margin) return true;
+  if (!criteria.sphere) return false;
+  const DVec3 center(criteria.sphere->center);
+  const DVec3 nearest =
+      closest_on_triangle(center, DVec3(triangle[0]), DVec3(triangle[1]), DVec3(triangle[2]));
+  return glm::length(center - nearest) <= double{criteria.sphere->radius} - margin;
 }
 
 SeededFront seeded_front(const TriangleMesh& full, std::uint32_t base, std::uint32_t number) {

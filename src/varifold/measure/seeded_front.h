@@ -3,6 +3,7 @@
 
 #include <varifold/mesh/triangle_mesh.h>
 #include <varifold/models/common/front_model.h>
+#include <array>
 #include <cstdint>
 
 namespace varifold::check {
@@ -12,8 +13,9 @@ struct SeededFront {
   RefineCriteria criteria;
   AdaptOptions options;
 
-  /// Asks for full detail at a point, and at all within `margin` of it.
-  [[nodiscard]] bool asks_for_all_at(const Vec3& point, float margin) const;
+  /// Asks for full detail somewhere on a triangle, deeper than `margin` within the place; without a
+  /// budget, that is.
+  [[nodiscard]] bool asks_for(const std::array<Vec3, 3>& triangle, float margin) const;
 };
 
 /// The fronts of small numbers are the full one, the base, and the full one again. All others are,
