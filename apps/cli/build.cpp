@@ -27,6 +27,8 @@ Result<BuildInput> simplify_input(const BuildOptions& command) {
   auto result = simplify(imported->mesh, options);
   end_progress();
   if (!result) return fail_in(path.string(), std::move(result.error()));
+  if (auto has_any = check_any_left(*result, path); !has_any)
+    return tl::unexpected(std::move(has_any.error()));
   input.detailed = std::move(result->detailed);
   input.stop = result->stop;
   input.faults = result->faults;

@@ -13,7 +13,7 @@ struct BuildCommand {
 
 CommandResult run_build(const BuildCommand& command) {
   const auto input = input_path(command.build.input), output = output_path(command.build.output);
-  if (auto writable = check_output(output, command.build.common); !writable)
+  if (auto writable = check_output(output, command.build.common, ".vfm"); !writable)
     return tl::unexpected(writable.error());
   const Stopwatch watch;
   auto simplified = simplify_input(command.build);

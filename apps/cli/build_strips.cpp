@@ -58,11 +58,11 @@ struct StripsBuild<LodStrips> {
         ->check(CLI::IsMember({"blocks", "grouped", "thesis"}))
         ->capture_default_str()
         ->type_name("FORM");
-    options.stripifier.max_indices = kStaticStripIndices;
+    options.stripifier.usual_max_indices = kStaticStripIndices;
     add_stripifier_options(command, options.stripifier);
   }
   static void check_options(const Options& options) {
-    const StripifierOptions usual{.max_indices = kStaticStripIndices};
+    const StripifierOptions usual{.usual_max_indices = kStaticStripIndices};
     if (options.form == "blocks" && options.stripifier != usual)
       wrong_usage("--form blocks makes its own strips: a stripifier is for grouped and thesis");
   }
@@ -95,7 +95,7 @@ CommandResult run_build(const StripsCommand<Model>& command) {
   check_stripifier_options(command.own.stripifier);
   if (command.build.flags.placement == "optimal")
     wrong_usage("--placement optimal: strips name vertices, they do not move them; use kept");
-  if (auto writable = check_output(output, command.build.common); !writable)
+  if (auto writable = check_output(output, command.build.common, ".vfm"); !writable)
     return tl::unexpected(writable.error());
   const Stopwatch watch;
   auto simplified = simplify_input(command.build);

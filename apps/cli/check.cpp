@@ -6,6 +6,7 @@
 #include <varifold/measure/surface_distance.h>
 #include <varifold/mesh/validation.h>
 #include <memory>
+#include <string>
 
 namespace varifold::cli {
 namespace {
@@ -15,6 +16,8 @@ struct CheckCommand {
   std::string input, against;
   bool closed = false;
   std::uint32_t samples = 200'000;
+  std::uint32_t fronts = ModelCheckOptions{}.fronts;
+  bool asks_for_fronts = false;
 };
 
 Json json_of(const std::vector<Fault>& faults, bool notes) {
@@ -62,6 +65,7 @@ Result<void> compare(const CheckCommand& command, const TriangleMesh& mesh,
 }
 
 CommandResult check_mesh(const CheckCommand& command, const std::filesystem::path& path) {
+  if (command.asks_for_fronts) wrong_usage("--fronts is for models");
   const Stopwatch watch;
   const auto imported = read_mesh_loudly(path);
   if (!imported) return tl::unexpected(imported.error());
@@ -84,8 +88,12 @@ CommandResult check_mesh(const CheckCommand& command, const std::filesystem::pat
 template <class Model>
 CommandResult check_levels(const CheckCommand& command, const std::filesystem::path& path,
                            const std::shared_ptr<const Model>& model) {
+  if (command.asks_for_fronts && !HasFronts<Model>)
+    wrong_usage(std::string("--fronts is for models of kind strips, not ") +
+                ModelKind<Model>::kName);
   const Stopwatch watch;
   ModelCheckOptions options;
+  options.fronts = command.fronts;
   options.threads = command.common.threads;
   options.progress = show_progress(path.filename().string());
   auto check = varifold::check_model<InstanceOf<Model>>(model, options);
@@ -100,6 +108,7 @@ CommandResult check_levels(const CheckCommand& command, const std::filesystem::p
   report.count("levels", "levels", std::uint64_t{finest} + 1);
   report.count("levels_checked", "levels checked", check->levels_checked);
   report.count("distances_checked", "errors measured again", check->distances_checked);
+  if (HasFronts<Model>) report.count("fronts_checked", "fronts checked", check->fronts_checked);
   report.seconds("seconds", "time", watch.seconds());
   return tell(command, check->faults, report);
 }
@@ -129,8 +138,16 @@ void add_check(CLI::App& app, CommandRunner& runner) {
       ->check(CLI::Range(1u, 100'000'000u))
       ->capture_default_str()
       ->type_name("N");
+  const CLI::Option* const fronts =
+      command
+          ->add_option("--fronts", options->fronts,
+                       "Models of kind strips: how many levels per region; 0: none")
+          ->check(CLI::Range(0u, 1'000'000u))
+          ->capture_default_str()
+          ->type_name("N");
   runner.add_common(*command, options->common, true);
-  runner.attach(*command, options->common, [options] {
+  runner.attach(*command, options->common, [options, fronts] {
+    options->asks_for_fronts = fronts->count() > 0;
     const auto path = input_path(options->input);
     return is_model_file(path) ? check_model_file(*options, path) : check_mesh(*options, path);
   });

@@ -3,9 +3,13 @@
 #include <sys/resource.h>
 #include <unistd.h>
 #include <atomic>
+#include <cctype>
 #include <cerrno>
+#include <cmath>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <new>
@@ -27,6 +31,18 @@ ExitCode exit_code_of(ErrorKind kind) {
 
 void wrong_usage(const std::string& message) {
   throw CLI::ParseError(message, static_cast<int>(kWrongUsage));
+}
+
+CLI::Validator finite_number() {
+  const auto check = [](const std::string& text) {
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    // What is no number at all is for the conversion to say.
+    if (end == text.c_str()) return std::string();
+    const bool is_held = std::abs(value) <= std::numeric_limits<float>::max();
+    return is_held ? std::string() : "'" + text + "' is not a finite number of single precision";
+  };
+  return {check, ""};
 }
 
 namespace {
@@ -180,6 +196,20 @@ Result<void> check_output(const std::filesystem::path& output, const CommonOptio
   const auto folder = output.has_parent_path() ? output.parent_path() : std::filesystem::path(".");
   if (::access(folder.c_str(), W_OK) == 0 || ::access(output.c_str(), W_OK) == 0) return {};
   return fail(ErrorKind::kFailed, output.string() + ": " + std::strerror(errno));
+}
+
+std::string small_extension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension;
+}
+
+Result<void> check_output(const std::filesystem::path& output, const CommonOptions& options,
+                          const char* extension) {
+  const std::string named = small_extension(output);
+  if (!named.empty() && named != extension)
+    wrong_usage(output.string() + ": this is written as " + extension + " only, not as " + named);
+  return check_output(output, options);
 }
 
 std::uint64_t peak_rss_bytes() {

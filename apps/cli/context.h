@@ -31,6 +31,9 @@ struct CommonOptions {
 /// To be thrown while options are looked at: ends the program with kWrongUsage.
 [[noreturn]] void wrong_usage(const std::string& message);
 
+/// For options that take a number: refuses nan, infinities, and what single precision cannot hold.
+[[nodiscard]] CLI::Validator finite_number();
+
 /// One line to stderr. Control characters, as hostile files may bring them, are made visible.
 void print_message(const std::string& message);
 
@@ -70,6 +73,13 @@ class CommandRunner {
 /// stdout that the output goes to.
 [[nodiscard]] Result<void> check_output(const std::filesystem::path& output,
                                         const CommonOptions& options);
+/// The same, and wrong usage where the name says another format than `extension`, such as ".vfm".
+/// Names that say none, as of devices, are good.
+[[nodiscard]] Result<void> check_output(const std::filesystem::path& output,
+                                        const CommonOptions& options, const char* extension);
+
+/// The extension of a path in small letters.
+[[nodiscard]] std::string small_extension(const std::filesystem::path& path);
 
 /// The most memory that the program had so far.
 [[nodiscard]] std::uint64_t peak_rss_bytes();

@@ -23,12 +23,6 @@ struct ExtractCommand {
   std::string strips;  ///< how they are divided; empty: triangles
 };
 
-void warn_of_base(const ExtractCommand& command, std::uint32_t base) {
-  if (command.level.triangles && *command.level.triangles < base)
-    print_message(command.input + ": warning: the base has " + format_count(base) +
-                  " triangles; there is nothing coarser");
-}
-
 // The level, with strips where they are asked for.
 template <class Instance>
 StripMesh level_mesh(Instance& instance, std::optional<StripJoin> join) {
@@ -56,7 +50,7 @@ CommandResult extract_from(const ExtractCommand& command, const std::shared_ptr<
   const ChosenLevel chosen =
       go_to_choice<Model>(instance, command.level, command.places, camera ? &*camera : nullptr,
                           asks_for_view(command.view, command.level));
-  warn_of_base(command, model->triangle_count(0));
+  warn_of_base(command.input, command.level, model->vertex_count(0), model->triangle_count(0));
   const std::optional<StripJoin> join = strip_join(command.strips, output);
   const StripMesh level = level_mesh(instance, join);
   const TriangleMesh& mesh = level.mesh;

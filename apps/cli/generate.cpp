@@ -123,6 +123,7 @@ void add_generate(CLI::App& app, CommandRunner& runner) {
       ->type_name("S");
   command->add_option("--relief", options->relief, "planet, terrain: bound of the heights")
       ->check(CLI::Range(0.0, 100.0))
+      ->check(finite_number())
       ->type_name("R");
   command->add_flag("--colors", options->colors, "planet: vertex colours by height");
   command

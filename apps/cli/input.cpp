@@ -33,6 +33,7 @@ void add_prepare_options(CLI::App& command, PrepareOptions& options) {
       .add_option("--weld", options.weld,
                   "Before all else, weld vertices that are at most this far apart (model units)")
       ->check(CLI::NonNegativeNumber)
+      ->check(finite_number())
       ->type_name("TOLERANCE");
   command
       .add_option("--ignore", options.ignore,
@@ -75,11 +76,29 @@ Result<ImportedMesh> read_mesh_loudly(const std::filesystem::path& path) {
   return imported;
 }
 
+namespace {
+
+// The first triangle, nearly always.
+bool has_triangle_with_three_corners(const TriangleMesh& mesh) {
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    const Vec3 a = mesh.positions[mesh.indices[i]], b = mesh.positions[mesh.indices[i + 1]],
+               c = mesh.positions[mesh.indices[i + 2]];
+    if (a != b && b != c && c != a) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 Result<ImportedMesh> read_surface(const std::filesystem::path& path) {
   auto imported = read_mesh(path);
   if (!imported) return imported;
   if (imported->mesh.indices.empty())
     return fail(ErrorKind::kInvalidInput, path.string() + ": there are no triangles");
+  if (!has_triangle_with_three_corners(imported->mesh))
+    return fail(ErrorKind::kInvalidInput,
+                fmt::format("{}: all {} triangles are degenerate: two corners at one position",
+                            path.string(), format_count(imported->mesh.triangle_count())));
   for (const std::string& warning : imported->warnings)
     print_message(path.string() + ": warning: " + warning);
   return imported;
@@ -88,8 +107,7 @@ Result<ImportedMesh> read_surface(const std::filesystem::path& path) {
 namespace {
 
 std::optional<MeshFormat> written_format(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string extension = small_extension(path);
   if (extension == ".ply") return MeshFormat::kPly;
   if (extension == ".obj") return MeshFormat::kObj;
   if (extension == ".glb") return MeshFormat::kGlb;

@@ -33,7 +33,8 @@ void prepare_mesh(TriangleMesh& mesh, const PrepareOptions& options);
 
 /// Reads a mesh and tells its warnings on stderr.
 [[nodiscard]] Result<ImportedMesh> read_mesh_loudly(const std::filesystem::path& path);
-/// The same for jobs that need triangles: a mesh without any is invalid.
+/// The same for jobs that need triangles: a mesh without any that has three
+/// corners is invalid.
 [[nodiscard]] Result<ImportedMesh> read_surface(const std::filesystem::path& path);
 
 /// Writes a mesh by the extension of its path, and tells what the format could not hold. `strips`:

@@ -74,6 +74,7 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
             [&](const Vec3& p) { options.up = p; });
   command.add_option("--fovy", options.fovy_degrees, "Vertical angle of view")
       ->check(CLI::Range(0.01, 179.0))
+      ->check(finite_number())
       ->capture_default_str()
       ->type_name("DEGREES");
   command
@@ -89,10 +90,12 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
       ->type_name("WxH");
   command.add_option("--azimuth", options.azimuth_degrees, "Without --eye: turn around --up")
       ->check(CLI::Range(-360.0, 360.0))
+      ->check(finite_number())
       ->capture_default_str()
       ->type_name("DEGREES");
   command.add_option("--elevation", options.elevation_degrees, "Without --eye: angle above")
       ->check(CLI::Range(-90.0, 90.0))
+      ->check(finite_number())
       ->capture_default_str()
       ->type_name("DEGREES");
 }
@@ -154,6 +157,7 @@ void add_level_options(CLI::App& command, LevelOptions& options) {
   const std::string group = "LEVEL";
   command.add_option("--lod", options.lod, "1 = full detail, 0 = base")
       ->check(CLI::Range(0.0, 1.0))
+      ->check(finite_number())
       ->type_name("F")
       ->group(group);
   command.add_option("--triangles", options.triangles, "At most so many triangles")
@@ -164,12 +168,14 @@ void add_level_options(CLI::App& command, LevelOptions& options) {
       ->group(group);
   command.add_option("--error", options.error, "At most this error, in model units")
       ->check(CLI::NonNegativeNumber)
+      ->check(finite_number())
       ->type_name("E")
       ->group(group);
   command
       .add_option("--pixels", options.pixels,
                   "At most this error in pixels, as the camera sees it; also with --triangles")
       ->check(CLI::NonNegativeNumber)
+      ->check(finite_number())
       ->type_name("T")
       ->group(group);
 }
@@ -180,6 +186,16 @@ void check_level_options(const LevelOptions& options) {
   if (asked > 1)
     wrong_usage(
         "one LEVEL only: --lod, --triangles, --vertices, --error or --pixels (with --triangles)");
+}
+
+void warn_of_base(const std::string& input, const LevelOptions& options,
+                  std::uint32_t base_vertices, std::uint32_t base_triangles) {
+  const auto warn = [&](std::uint32_t base, const char* elements) {
+    print_message(input + ": warning: the base has " + format_count(base) + " " + elements +
+                  "; there is nothing coarser");
+  };
+  if (options.triangles && *options.triangles < base_triangles) warn(base_triangles, "triangles");
+  if (options.vertices && *options.vertices < base_vertices) warn(base_vertices, "vertices");
 }
 
 Vec3 nearest_point(std::span<const Vec3> points, const Vec3& eye) {

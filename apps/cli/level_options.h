@@ -51,6 +51,10 @@ void add_level_options(CLI::App& command, LevelOptions& options);
 /// Wrong usage where several levels are asked for that do not go together.
 void check_level_options(const LevelOptions& options);
 
+/// Tells where less was asked for than the base has, so that it is the base that comes.
+void warn_of_base(const std::string& input, const LevelOptions& options,
+                  std::uint32_t base_vertices, std::uint32_t base_triangles);
+
 /// The point of the bounds of `points` that is nearest to the eye.
 [[nodiscard]] Vec3 nearest_point(std::span<const Vec3> points, const Vec3& eye);
 
@@ -100,9 +104,9 @@ template <class Model>
   by_view = by_view && camera;
   if constexpr (HasFronts<Model>) {
     if (by_view || !places.empty()) {
-      const auto front = ModelKind<Model>::adapt(
-          instance, make_criteria(places, by_view ? camera : nullptr),
-          static_cast<float>(options.pixels.value_or(0)), options.triangles.value_or(kNone));
+      const FrontStatistics front = instance.adapt(
+          make_criteria(places, by_view ? camera : nullptr),
+          {static_cast<float>(options.pixels.value_or(0)), options.triangles.value_or(kNone)});
       return {0, front.tolerance, true, front.forced_splits, front.triangles};
     }
   } else if (!places.empty()) {

@@ -1,6 +1,9 @@
 // varifold: continuous level of detail of triangle meshes, from the command line.
 #include <apps/cli/commands.h>
+#include <algorithm>
 #include <cstring>
+#include <string>
+#include <vector>
 
 namespace varifold::cli {
 namespace {
@@ -29,12 +32,29 @@ bool wants_json(int argc, char** argv) {
   return false;
 }
 
-// CLI11 says no more of an unknown command than that one is required.
-std::string explain(const CLI::App& app, const std::string& first, const CLI::ParseError& error) {
+// CLI11 says no more of an unknown command, or kind of `build`, than that one is required.
+std::string explain(const CLI::App& app, const std::vector<std::string>& arguments,
+                    const CLI::ParseError& error) {
+  const std::string first = arguments.empty() ? "" : arguments[0];
   if (first.empty() || first[0] == '-') return error.what();
-  for (const CLI::App* const command : app.get_subcommands({}))
-    if (command->check_name(first)) return error.what();
-  return "no command '" + first + "'";
+  const auto is_named = [](const CLI::App* command, const std::string& name) {
+    return command->check_name(name);
+  };
+  const auto commands = app.get_subcommands({});
+  const auto command = std::find_if(commands.begin(), commands.end(),
+                                    [&](const CLI::App* c) { return is_named(c, first); });
+  if (command == commands.end()) return "no command '" + first + "'";
+  // Groups of options have no name.
+  const auto kinds =
+      (*command)->get_subcommands([](const CLI::App* kind) { return !kind->get_name().empty(); });
+  if (kinds.empty()) return error.what();
+  std::string known;
+  for (const CLI::App* const kind : kinds) {
+    if (arguments.size() > 1 && is_named(kind, arguments[1])) return error.what();
+    known += (known.empty() ? "" : ", ") + kind->get_name();
+  }
+  const std::string named = arguments.size() > 1 ? "no kind '" + arguments[1] + "'" : "which kind?";
+  return first + ": " + named + "; known are " + known;
 }
 
 ExitCode tell_usage(const std::string& message, bool json) {
@@ -55,7 +75,7 @@ int run(int argc, char** argv) {
     // --help and --version come this way too.
     if (error.get_exit_code() == 0) return app.exit(error);
     end_progress();
-    return tell_usage(explain(app, argc > 1 ? argv[1] : "", error), wants_json(argc, argv));
+    return tell_usage(explain(app, {argv + 1, argv + argc}, error), wants_json(argc, argv));
   }
   return runner.exit_code();
 }

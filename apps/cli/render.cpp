@@ -94,6 +94,7 @@ CommandResult render_level(const RenderCommand& command, const std::shared_ptr<c
   InstanceOf<Model> instance(model);
   const ChosenLevel chosen = go_to_choice<Model>(instance, command.level, command.places, &camera,
                                                  asks_for_view(command.view, command.level));
+  warn_of_base(command.input, command.level, model->vertex_count(0), model->triangle_count(0));
   report.text("kind", "kind", ModelKind<Model>::kName);
   if (!chosen.is_front) {
     report.count("level", "level", chosen.level);
@@ -112,7 +113,7 @@ CommandResult render_model(const RenderCommand& command, const std::filesystem::
 
 CommandResult run_render(const RenderCommand& command) {
   const auto input = input_path(command.input), output = output_path(command.output);
-  if (auto writable = check_output(output, command.common); !writable)
+  if (auto writable = check_output(output, command.common, ".png"); !writable)
     return tl::unexpected(writable.error());
   const Stopwatch watch;
   Report report;
@@ -141,6 +142,7 @@ void add_render(CLI::App& app, CommandRunner& runner) {
   command->add_flag("--wireframe", options->wireframe, "Draw the edges over the shading");
   command->add_option("--wire-width", options->wire_width, "In pixels")
       ->check(CLI::Range(0.1, 100.0))
+      ->check(finite_number())
       ->capture_default_str()
       ->type_name("W");
   command->add_option("--color", options->color, "auto, plain, material, vertex, level or strip")

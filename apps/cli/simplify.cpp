@@ -52,6 +52,8 @@ Result<Simplification> run_simplifier(TriangleMesh mesh, const SimplifyCommand& 
   auto result = simplify(mesh, options);
   end_progress();
   if (!result) return fail_in(input.string(), std::move(result.error()));
+  if (auto has_any = check_any_left(*result, input); !has_any)
+    return tl::unexpected(std::move(has_any.error()));
   return result;
 }
 
@@ -96,11 +98,13 @@ void add_simplify(CLI::App& app, CommandRunner& runner) {
       ->type_name("N");
   target->add_option("--ratio", options->ratio, "This part of the triangles")
       ->check(CLI::Range(0.0, 1.0))
+      ->check(finite_number())
       ->type_name("R");
   target
       ->add_option("--error", options->error,
                    "As few as possible with no vertex of the input farther away than this")
       ->check(CLI::NonNegativeNumber)
+      ->check(finite_number())
       ->type_name("E");
   add_simplify_flags(*command, options->flags);
   add_prepare_options(*command, options->prepare);

@@ -13,6 +13,7 @@ void add_simplify_flags(CLI::App& command, SimplifyFlags& flags) {
   const auto add_weight = [&](const char* name, float& weight, const char* help) {
     command.add_option(name, weight, help)
         ->check(CLI::NonNegativeNumber)
+        ->check(finite_number())
         ->capture_default_str()
         ->type_name("W");
   };
@@ -30,6 +31,13 @@ SimplifyOptions simplify_options(const SimplifyFlags& flags, const CommonOptions
   options.threads = common.threads;
   options.progress = show_progress(input.filename().string());
   return options;
+}
+
+Result<void> check_any_left(const Simplification& result, const std::filesystem::path& input) {
+  if (!result.detailed.mesh.indices.empty()) return {};
+  return fail(ErrorKind::kInvalidInput,
+              fmt::format("{}: all {} triangles are degenerate: two corners at one position",
+                          input.string(), format_count(result.faults.degenerate_triangles)));
 }
 
 namespace {

@@ -21,6 +21,10 @@ void add_simplify_flags(CLI::App& command, SimplifyFlags& flags);
                                                const CommonOptions& common,
                                                const std::filesystem::path& input);
 
+/// kInvalidInput where all triangles of the input were degenerate, so that there is no surface.
+[[nodiscard]] Result<void> check_any_left(const Simplification& result,
+                                          const std::filesystem::path& input);
+
 /// Adds stop_reason; where the simplifier is stuck also what was left, why, and what would help,
 /// and says so on stderr.
 void report_stop(const StopReport& stop, const std::filesystem::path& input, Report& report);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <string>
 #include <vector>
 
 namespace varifold::cli {
@@ -59,19 +60,20 @@ void add_stripifier_options(CLI::App& command, StripifierOptions& options) {
       ->check(CLI::IsMember({"length", "cache", "sequence"}))
       ->capture_default_str()
       ->type_name("KIND");
-  command.add_option("--cache-size", options.cache_size, "Entries that --stripifier cache is for")
+  command
+      .add_option("--cache-size", options.cache_size,
+                  "Entries that --stripifier cache is for (default 16)")
       ->check(CLI::IsMember({16u, 24u}))
-      ->capture_default_str()
       ->type_name("N");
   add_length_options(command, options);
   command
       .add_option("--max-indices", options.max_indices,
-                  "No strip is longer, since long ones are slow to change; 0: no limit")
+                  "No strip is longer, since long ones are slow to change; 0: no limit (default " +
+                      std::to_string(options.usual_max_indices) + "); not with sequence")
       ->check([](const std::string& text) {
         const bool small = text == "1" || text == "2" || text == "3";
         return small ? std::string("a strip needs at least 4") : std::string();
       })
-      ->capture_default_str()
       ->type_name("N");
 }
 
@@ -85,6 +87,10 @@ void check_stripifier_options(const StripifierOptions& options) {
   }
   if (options.heuristic != "random" && options.seed != usual.seed)
     wrong_usage("--strip-seed is for --heuristic random");
+  if (options.max_indices && options.name == "sequence")
+    wrong_usage("--max-indices is for --stripifier length and cache, not sequence");
+  if (options.cache_size && options.name != "cache")
+    wrong_usage("--cache-size is for --stripifier cache, not " + options.name);
 }
 
 TriangleStrips make_strips(const DetailedMesh& detailed, const StripifierOptions& options) {
@@ -93,8 +99,9 @@ TriangleStrips make_strips(const DetailedMesh& detailed, const StripifierOptions
   stripify_options.heuristic = heuristic_of(options.heuristic);
   stripify_options.join_ends = !options.keep_ends;
   stripify_options.seed = options.seed;
-  stripify_options.cache_size = options.cache_size;
-  stripify_options.max_indices = options.max_indices == 0 ? 0 : std::max(4u, options.max_indices);
+  stripify_options.cache_size = options.cache_size.value_or(16);
+  const std::uint32_t most = options.max_indices.value_or(options.usual_max_indices);
+  stripify_options.max_indices = most == 0 ? 0 : std::max(4u, most);
   if (options.name == "cache") stripify_options.method = StripMethod::kCacheAware;
   return stripify(detailed.mesh, stripify_options);
 }

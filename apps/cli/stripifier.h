@@ -5,22 +5,23 @@
 #include <varifold/strip/triangle_strips.h>
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace varifold::cli {
 
 struct StripifierOptions {
   std::string name = "length";
-  std::uint32_t cache_size = 16;
   std::string heuristic = "rows";  ///< of the kind length, like the two that follow
   bool keep_ends = false;          ///< strips whose ends meet are not joined
   std::uint64_t seed = 1;          ///< of the heuristic random
-  std::uint32_t max_indices = 0;   ///< of a strip; 0: no limit
+  std::optional<std::uint32_t> cache_size;   ///< 16 where it is not given
+  std::optional<std::uint32_t> max_indices;  ///< of a strip; 0: no limit
+  std::uint32_t usual_max_indices = 0;       ///< where it is not given
   friend bool operator==(const StripifierOptions&, const StripifierOptions&) = default;
 };
 void add_stripifier_options(CLI::App& command, StripifierOptions& options);
-
-/// Wrong usage where an option is set that the chosen stripifier does not have.
+/// Wrong usage where options were given that the stripifier has no use for.
 void check_stripifier_options(const StripifierOptions& options);
 
 /// Strips of all triangles of the full level, by material ranges.

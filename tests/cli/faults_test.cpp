@@ -88,6 +88,107 @@ TEST_F(Faults, WrongUsage) {
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 
+// Exit code 2, one line that has `word` in it, and nothing written.
+void expect_wrong_usage(const std::vector<std::string>& arguments, const std::string& word) {
+  const ToolResult result = run_tool(arguments);
+  const std::string line = ::testing::PrintToString(arguments) + result.err;
+  EXPECT_EQ(result.exit_code, 2) << line;
+  EXPECT_EQ(lines_of(result.err).size(), 1u) << line;
+  EXPECT_NE(result.err.find(word), std::string::npos) << line;
+}
+
+TEST_F(Faults, NumbersThatAreNone) {
+  make_model("500");
+  const std::string mesh = path("m.ply"), model = path("m.vfm"), out = path("o.ply");
+  const std::string picture = path("o.png");
+  for (const char* number : {"nan", "NaN", "-nan", "inf", "infinity", "1e999", "1e60"}) {
+    for (const char* option : {"--lod", "--error", "--pixels"}) {
+      expect_wrong_usage({"extract", model, option, number, "-o", out}, option);
+      expect_wrong_usage({"render", model, option, number, "-o", picture}, option);
+    }
+    for (const char* option : {"--fovy", "--azimuth", "--elevation", "--wire-width"})
+      expect_wrong_usage({"render", mesh, option, number, "-o", picture}, option);
+    for (const char* option : {"--ratio", "--error"})
+      expect_wrong_usage({"simplify", mesh, option, number, "-o", out}, option);
+    for (const char* option : {"--weld", "--normal-weight"})
+      expect_wrong_usage({"build", "pm", mesh, option, number, "-o", path("o.vfm")}, option);
+    expect_wrong_usage({"generate", "planet", "--relief", number, "-o", out}, "--relief");
+  }
+  expect_wrong_usage({"extract", model, "--lod", "half", "-o", out}, "--lod");
+  EXPECT_EQ(files(), (std::set<std::string>{"m.ply", "m.vfm"}));
+}
+
+TEST_F(Faults, LessThanTheBaseIsTheBaseWithAWarning) {
+  make_model("500");
+  for (const char* option : {"--vertices", "--triangles"}) {
+    const ToolResult result =
+        run_tool({"extract", path("m.vfm"), option, "0", "-o", path("o.ply"), "--json"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.json()["level"], 0);
+    ASSERT_EQ(lines_of(result.err).size(), 1u) << result.err;
+    EXPECT_NE(result.err.find(std::string("warning: the base has ")), std::string::npos);
+    EXPECT_NE(result.err.find(option + 2), std::string::npos) << result.err;
+    const std::string base = result.json()[option + 2].dump();
+    const ToolResult enough =
+        run_tool({"extract", path("m.vfm"), option, base, "-o", path("o.ply")});
+    EXPECT_EQ(enough.err, "") << base;
+  }
+}
+
+// Before any work: the input need not even be there.
+TEST_F(Faults, NamesOfOtherFormats) {
+  expect_wrong_usage({"render", path("none.ply"), "-o", path("x.jpg")}, ".png");
+  for (const char* kind : {"pm", "strips", "lodstrips", "mts"})
+    expect_wrong_usage({"build", kind, path("none.ply"), "-o", path("x.ply")}, ".vfm");
+  EXPECT_EQ(run_tool({"generate", "torus", "--triangles", "60", "-o", path("m.ply")}).exit_code, 0);
+  EXPECT_EQ(run_tool({"build", "pm", path("m.ply"), "-o", path("M.VFM")}).exit_code, 0);
+  EXPECT_EQ(run_tool({"build", "pm", path("m.ply"), "-o", path("model")}).exit_code, 0);
+  EXPECT_EQ(run_tool({"info", path("model")}).exit_code, 0);
+  EXPECT_EQ(files(), (std::set<std::string>{"m.ply", "M.VFM", "model"}));
+}
+
+TEST_F(Faults, BuildNamesItsKinds) {
+  for (const char* word : {"patchwork", "pm", "strips", "lodstrips", "mts"})
+    expect_wrong_usage({"build", "patchwork", path("m.ply"), "-o", path("o.vfm")}, word);
+  expect_wrong_usage({"build"}, "lodstrips");
+  expect_wrong_usage({"build", "pm"}, "mesh is required");
+}
+
+TEST_F(Faults, MeshesOfDegenerateTrianglesAlone) {
+  std::ofstream(path("flat.obj")) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 1 2\nf 3 3 3\n";
+  for (const char* kind : {"pm", "strips", "lodstrips", "mts"}) {
+    const ToolResult result = run_tool({"build", kind, path("flat.obj"), "-o", path("o.vfm")});
+    expect_bad_input(result, "flat.obj");
+    EXPECT_NE(result.err.find("degenerate"), std::string::npos) << result.err;
+  }
+  expect_bad_input(run_tool({"simplify", path("flat.obj"), "--ratio", "0.5", "-o", path("o.ply")}),
+                   "flat.obj");
+  EXPECT_EQ(files(), std::set<std::string>{"flat.obj"});
+}
+
+TEST_F(Faults, StripifierOptionsWithoutUse) {
+  make_model("60");
+  const std::string mesh = path("m.ply"), out = path("o.vfm");
+  for (const char* kind : {"strips", "mts"}) {
+    expect_wrong_usage(
+        {"build", kind, mesh, "--stripifier", "sequence", "--max-indices", "20", "-o", out},
+        "--max-indices");
+    expect_wrong_usage({"build", kind, mesh, "--cache-size", "16", "-o", out}, "--cache-size");
+  }
+  expect_wrong_usage({"build", "lodstrips", mesh, "--form", "thesis", "--stripifier", "sequence",
+                      "--max-indices", "64", "-o", out},
+                     "--max-indices");
+  expect_wrong_usage({"build", "lodstrips", mesh, "--max-indices", "64", "-o", out}, "--form");
+  EXPECT_EQ(files(), (std::set<std::string>{"m.ply", "m.vfm"}));
+}
+
+TEST_F(Faults, FrontsAreOfModelsThatHaveThem) {
+  make_model("60");
+  expect_wrong_usage({"check", path("m.ply"), "--fronts", "5"}, "--fronts");
+  expect_wrong_usage({"check", path("m.vfm"), "--fronts", "5"}, "strips");
+  EXPECT_FALSE(run_tool({"check", path("m.vfm"), "--json"}).json().contains("fronts_checked"));
+}
+
 TEST_F(Faults, HelpIsNoFault) {
   EXPECT_EQ(run_tool({"--help"}).exit_code, 0);
   EXPECT_EQ(run_tool({"--version"}).exit_code, 0);

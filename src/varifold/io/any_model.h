@@ -4,6 +4,7 @@
 
 #include <varifold/base/result.h>
 #include <varifold/io/container_table.h>
+#include <varifold/models/common/front_model.h>
 #include <varifold/models/lodstrips/lod_strips.h>
 #include <varifold/models/mts/encoding.h>
 #include <varifold/models/mts/instance.h>
@@ -89,12 +90,6 @@ struct ModelKind<StripFramework> {
     criteria.plane = Plane{normal, -glm::dot(normal, point)};
     return instance.adapt(criteria);
   }
-  /// The front that is asked for: within `pixels` of error where a camera sees the surface, as
-  /// coarse as can be elsewhere, and at most so many triangles.
-  static FrontStatistics adapt(Instance& instance, const RefineCriteria& criteria, float pixels,
-                               std::uint32_t max_triangles) {
-    return instance.adapt(criteria, {pixels, max_triangles});
-  }
 };
 
 template <class... Models>
@@ -117,9 +112,7 @@ using InstanceOf = typename ModelKind<Model>::Instance;
 
 /// Kinds whose levels may differ from place to place.
 template <class Model>
-concept HasFronts = requires(InstanceOf<Model>& instance, const RefineCriteria& criteria) {
-  ModelKind<Model>::adapt(instance, criteria, 1.0f, 1u);
-};
+concept HasFronts = FrontInstance<InstanceOf<Model>>;
 
 /// As on the command line and in JSON: "pm", "mts", ...
 [[nodiscard]] std::string kind_name(const AnyModel& model);

@@ -5,6 +5,7 @@
 #include <varifold/models/mts/instance.h>
 #include <varifold/models/pm/instance.h>
 #include <varifold/models/strips/instance.h>
+#include <varifold/models/strips/verify_dependencies.h>
 
 namespace varifold {
 

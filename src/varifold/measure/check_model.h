@@ -17,7 +17,11 @@ struct ModelCheckOptions {
   std::uint32_t all_levels_up_to = 2000;  ///< a model of more levels is checked at a spread of them
   std::uint32_t spread_levels = 32;       ///< how many; the base and the full level are among them
   std::uint32_t distance_levels = 8;      ///< levels whose error is measured anew
-  int threads = 0;                        ///< 0 = all
+  /// Of models that have fronts (models/common/front_model.h): how many. The full one, the base and
+  /// the full one again come first, then spheres, planes and views that depend on nothing but their
+  /// number. 0: none.
+  std::uint32_t fronts = 27;
+  int threads = 0;  ///< 0 = all
   Progress progress;
 };
 
@@ -25,6 +29,7 @@ struct ModelCheck {
   std::vector<Fault> faults;            ///< notes among them, see Severity
   std::uint32_t levels_checked = 0;     ///< each reached upwards, downwards and from a fresh start
   std::uint32_t distances_checked = 0;  ///< levels whose error was compared with distances
+  std::uint32_t fronts_checked = 0;     ///< 0 for models without fronts
 };
 
 /// The kind of model that an instance is of.
@@ -53,6 +58,18 @@ using CheckedModel = std::remove_cvref_t<decltype(std::declval<const Instance&>(
 /// - error_exceeded: a vertex of the full mesh is farther from the level's surface than its error;
 ///   looked at where errors are measured. Where positions were rounded, the error of the full level
 ///   says by how much, and that much may be between the two.
+/// Fronts have the same faults, from wrong_count to flipped_triangle, with front_ before their
+/// names, and these:
+/// - front_not_identical: other triangles than a fresh instance has that is led there, than
+/// extract()
+///   gives, or, of the full front and the base, than the level has
+/// - front_over_budget: more triangles than asked for, and than the base has
+/// - front_too_coarse: a triangle of the full mesh is missing that reaches into where a sphere or a
+/// plane asks
+///   for full detail
+/// - front_zero_area: triangles on a line, the full mesh having none and the levels looked at
+/// neither
+/// - missing_dependency: steps that may collapse before what made the triangles around them
 /// Note: coincident_point, points of the model at one position (as by rounding).
 ///
 /// The model must be consistent, as from a build or a decoder: its walks end and its indices are

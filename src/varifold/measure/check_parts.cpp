@@ -12,6 +12,12 @@ WeldMap ModelPoints::at_level(std::uint32_t level, std::uint32_t vertices) const
   return weld;
 }
 
+WeldMap ModelPoints::all() const {
+  const std::uint32_t count =
+      point_of.empty() ? 0 : *std::max_element(point_of.begin(), point_of.end()) + 1;
+  return {point_of, std::max(count, base_points)};
+}
+
 std::vector<std::uint32_t> levels_to_visit(std::uint32_t finest, const ModelCheckOptions& options) {
   std::vector<std::uint32_t> levels;
   const bool all = finest <= options.all_levels_up_to;

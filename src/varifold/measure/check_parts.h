@@ -11,25 +11,28 @@
 #include <map>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace varifold::check {
 
-/// How many levels have a fault, and the first of them.
-class LevelFaults {
+/// How many levels, or fronts, have a fault, and the first of them.
+class PlaceFaults {
  public:
-  void add(const char* kind, std::uint32_t level, const std::string& detail = {}) {
+  /// `noun` is what the places are numbers of; kinds are named with `prefix` before them.
+  explicit PlaceFaults(std::string noun, std::string prefix = {})
+      : noun_(std::move(noun)), prefix_(std::move(prefix)) {}
+
+  void add(const char* kind, std::uint32_t place, const std::string& detail = {}) {
     Entry& entry = entries_[kind];
     if (++entry.count > kPlaces) return;
-    entry.where += (entry.where.empty() ? "level " : ", ") + std::to_string(level);
+    entry.where += (entry.where.empty() ? noun_ + " " : ", ") + std::to_string(place);
     if (!detail.empty()) entry.where += " (" + detail + ")";
   }
-  [[nodiscard]] std::vector<Fault> list() const {
-    std::vector<Fault> faults;
+  void append_to(std::vector<Fault>& faults) const {
     for (const auto& [kind, entry] : entries_)
-      faults.push_back({kind, entry.count, entry.where + (entry.count > kPlaces ? ", ..." : ""),
-                        Severity::kFault});
-    return faults;
+      faults.push_back({prefix_ + kind, entry.count,
+                        entry.where + (entry.count > kPlaces ? ", ..." : ""), Severity::kFault});
   }
 
  private:
@@ -38,6 +41,7 @@ class LevelFaults {
     std::uint64_t count = 0;
     std::string where;
   };
+  std::string noun_, prefix_;
   std::map<std::string, Entry> entries_;
 };
 
@@ -48,6 +52,8 @@ struct ModelPoints {
   std::uint32_t base_points = 0;
 
   [[nodiscard]] WeldMap at_level(std::uint32_t level, std::uint32_t vertices) const;
+  /// Of all vertices.
+  [[nodiscard]] WeldMap all() const;
 };
 
 template <class Model>

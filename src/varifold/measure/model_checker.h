@@ -5,9 +5,9 @@
 #include <varifold/base/parallel.h>
 #include <varifold/measure/check_model.h>
 #include <varifold/measure/check_parts.h>
+#include <varifold/measure/front_checker.h>
+#include <varifold/measure/full_level.h>
 #include <varifold/measure/surface_distance.h>
-#include <varifold/mesh/normals.h>
-#include <varifold/mesh/topology.h>
 #include <varifold/mesh/weld.h>
 #include <varifold/models/common/uniform_model.h>
 #include <varifold/models/pm/instance.h>
@@ -47,36 +47,30 @@ class ModelChecker {
 
   Result<ModelCheck> run() {
     check_errors();
-    if (!look_at_full_level()) {
-      ModelCheck result;
-      result.faults = faults_.list();
-      result.levels_checked = 1;
-      return result;
-    }
-    if (!walk_up() || !walk_down() || !check_distances())
-      return fail(ErrorKind::kCancelled, "cancelled while checking");
     ModelCheck result;
-    result.faults = faults_.list();
-    result.levels_checked = static_cast<std::uint32_t>(levels_.size());
-    result.distances_checked = distances_checked_;
-    note_coincident_points(result.faults);
+    result.levels_checked = 1;
+    if (look_at_full_level()) {
+      if (!walk_up() || !walk_down() || !check_distances() || !check_fronts(result))
+        return fail(ErrorKind::kCancelled, "cancelled while checking");
+      result.levels_checked = static_cast<std::uint32_t>(levels_.size());
+      result.distances_checked = distances_checked_;
+      note_coincident_points(result.faults);
+    }
+    std::vector<Fault> faults;
+    faults_.append_to(faults);
+    result.faults.insert(result.faults.begin(), faults.begin(), faults.end());
     return result;
   }
 
  private:
-  [[nodiscard]] TopologyReport topology_at(const TriangleMesh& mesh, std::uint32_t level) const {
-    return analyze_topology(mesh, points_.at_level(level, mesh.vertex_count()), options_.threads);
-  }
-
   // Nothing can be said of a model whose full level does not exist.
   bool look_at_full_level() {
     const std::uint32_t finest = model_->finest_level();
     Instance full(model_);
     full.go_to_level(finest);
     if (!corners_exist(full)) return false;
-    full_mesh_ = full.extract();
-    full_triangles_ = check::canonical_triangles(whole_mesh(full));
-    full_topology_ = topology_at(full_mesh_, finest);
+    full_ = {full.extract(), check::canonical_triangles(whole_mesh(full)), points_,
+             model_->error(finest), options_.threads};
     return true;
   }
 
@@ -102,8 +96,9 @@ class ModelChecker {
       if (!corners_exist(fresh)) continue;
       const TriangleMesh mesh = fresh.extract();
       check_counts(fresh, mesh);
+      if (FrontInstance<Instance>) full_.note_level(mesh);
       check_corners(mesh, level);
-      check_surface(mesh, level);
+      full_.check_surface(mesh, points_.at_level(level, mesh.vertex_count()), faults_, level);
     }
     return true;
   }
@@ -147,61 +142,12 @@ class ModelChecker {
     const std::uint32_t live = model_->vertex_count(level);
     for (std::uint32_t v = 0; v < vertices; ++v)
       ancestor[v] = v < live ? v : ancestor[points_.target[v]];
-    std::vector<check::CanonicalTriangle> expected;
-    expected.reserve(full_triangles_.size());
-    for (check::CanonicalTriangle t : full_triangles_) {
-      std::array<std::uint32_t, 3> point{};
-      for (std::size_t c = 0; c < 3; ++c) {
-        if (t[c] >= vertices) return faults_.add("wrong_corner", level);
-        t[c] = ancestor[t[c]];
-        point[c] = points_.point_of[t[c]];
-      }
-      if (point[0] != point[1] && point[1] != point[2] && point[0] != point[2])
-        expected.push_back(check::canonical(t));
-    }
-    std::sort(expected.begin(), expected.end());
-    const auto differences = check::compare_triangles(expected, check::canonical_triangles(mesh));
-    if (differences.wrong) faults_.add("wrong_corner", level);
-    if (differences.lost) faults_.add("lost_triangle", level);
-    if (differences.doubled) faults_.add("doubled_triangle", level);
-  }
-
-  void check_surface(const TriangleMesh& mesh, std::uint32_t level) {
-    const TopologyReport topology = topology_at(mesh, level);
-    const auto expect = [&](bool holds, const char* kind) {
-      if (!holds) faults_.add(kind, level);
-    };
-    expect(topology.closed || !full_topology_.closed, "not_closed");
-    expect(topology.euler_characteristic == full_topology_.euler_characteristic, "euler_changed");
-    expect(topology.components == full_topology_.components, "components_changed");
-    expect(topology.degenerate_triangles == 0, "degenerate_triangle");
-    expect(topology.duplicate_triangles <= full_topology_.duplicate_triangles,
-           "new_duplicate_triangle");
-    expect(topology.nonmanifold_edges <= full_topology_.nonmanifold_edges, "new_nonmanifold_edge");
-    expect(topology.misoriented_edges <= full_topology_.misoriented_edges, "new_misoriented_edge");
-    if (const std::size_t flipped = flipped_beyond_rounding(mesh); flipped > 0)
-      faults_.add("flipped_triangle", level, std::to_string(flipped) + " triangles");
-  }
-
-  // A triangle thinner than positions were rounded may be turned by that alone.
-  [[nodiscard]] std::size_t flipped_beyond_rounding(const TriangleMesh& mesh) const {
-    const double thin = 4.0 * model_->error(model_->finest_level());
-    const auto flipped = flipped_triangles(mesh, full_mesh_, options_.threads);
-    return static_cast<std::size_t>(
-        std::count_if(flipped.begin(), flipped.end(), [&](std::uint32_t t) {
-          double longest = 0;
-          for (int c = 0; c < 3; ++c)
-            longest = std::max<double>(
-                longest,
-                glm::length(mesh.positions[mesh.indices[3 * std::size_t{t} + c]] -
-                            mesh.positions[mesh.indices[3 * std::size_t{t} + (c + 1) % 3]]));
-          return 2 * triangle_area(mesh, t) > thin * longest;
-        }));
+    full_.check_corners(mesh, ancestor, points_.point_of, faults_, level);
   }
 
   // A spread of levels by the logarithm of their number: the coarse ones have the large errors.
   bool check_distances() {
-    if (!error_is_measured(*model_) || full_mesh_.indices.empty()) return true;
+    if (!error_is_measured(*model_) || full_.mesh().indices.empty()) return true;
     const std::uint32_t finest = model_->finest_level();
     std::vector<std::uint32_t> chosen{0};
     for (std::uint32_t i = 0; i < options_.distance_levels; ++i)
@@ -222,22 +168,38 @@ class ModelChecker {
     const SurfaceDistance surface(instance.extract());
     // Even a point on a triangle is a few bits of a double away from it.
     double reach = 0;
-    for (const Vec3& p : full_mesh_.positions) reach = std::max<double>(reach, glm::length(p));
+    for (const Vec3& p : full_.mesh().positions) reach = std::max<double>(reach, glm::length(p));
     const double bound =
         model_->error(level) * (1 + 1e-5) + model_->error(model_->finest_level()) + 1e-12 * reach;
     std::atomic<bool> is_exceeded{false};
-    parallel_for(options_.threads, full_mesh_.positions.size(), 4096,
+    parallel_for(options_.threads, full_.mesh().positions.size(), 4096,
                  [&](std::size_t begin, std::size_t end) {
                    for (std::size_t v = begin; v < end && !is_exceeded; ++v)
-                     if (surface.distance(DVec3(full_mesh_.positions[v])) > bound)
+                     if (surface.distance(DVec3(full_.mesh().positions[v])) > bound)
                        is_exceeded = true;
                  });
     if (is_exceeded) faults_.add("error_exceeded", level);
   }
 
+  bool check_fronts([[maybe_unused]] ModelCheck& result) {
+    if constexpr (FrontInstance<Instance>) {
+      FrontChecker<Instance> checker(model_, options_, points_, full_);
+      const auto report_front = [&](std::uint32_t done) {
+        return ::varifold::report(
+            options_.progress, "fronts",
+            (3 + static_cast<float>(done) / static_cast<float>(std::max(1u, options_.fronts))) /
+                kStages);
+      };
+      if (!checker.run(report_front)) return false;
+      checker.append_faults(result.faults);
+      result.fronts_checked = checker.fronts_checked();
+    }
+    return true;
+  }
+
   void note_coincident_points(std::vector<Fault>& faults) const {
     const std::uint32_t points = points_.base_points + model_->finest_level();
-    const std::uint32_t positions = weld_exact(full_mesh_.positions).class_count;
+    const std::uint32_t positions = weld_exact(full_.mesh().positions).class_count;
     if (positions < points)
       faults.push_back({"coincident_point", points - positions, "the full level", Severity::kNote});
   }
@@ -245,18 +207,18 @@ class ModelChecker {
   [[nodiscard]] bool report_progress(const char* stage, std::uint32_t done, int part) const {
     const float finest = static_cast<float>(std::max(1u, model_->finest_level()));
     return report(options_.progress, stage,
-                  (static_cast<float>(part) + static_cast<float>(done) / finest) / 3);
+                  (static_cast<float>(part) + static_cast<float>(done) / finest) / kStages);
   }
+
+  static constexpr float kStages = FrontInstance<Instance> ? 4 : 3;
 
   std::shared_ptr<const Model> model_;
   const ModelCheckOptions& options_;
   check::ModelPoints points_;
   std::vector<std::uint32_t> levels_;
-  std::vector<check::CanonicalTriangle> full_triangles_;
-  TriangleMesh full_mesh_;
-  TopologyReport full_topology_;
+  check::FullLevel full_;
   std::vector<std::uint64_t> fingerprints_;  ///< per visited level, by a fresh instance
-  check::LevelFaults faults_;
+  check::PlaceFaults faults_{"level"};
   std::uint32_t distances_checked_ = 0;
 };
 

@@ -9,37 +9,6 @@ namespace {
 
 constexpr std::uint32_t kLastDependency = StripFrameworkData::kLastDependency;
 
-// The dependencies of single steps.
-class DependencyLists {
- public:
-  // Why the words are no such lists, or nothing.
-  const char* read(std::span<const std::uint32_t> words, std::uint32_t steps) {
-    begin_.resize(steps);
-    count_.assign(steps, 0);
-    std::size_t at = 0;
-    for (std::uint32_t k = steps; k-- > 0;) {
-      begin_[k] = static_cast<std::uint32_t>(steps_.size());
-      for (bool last = false; !last; ++at) {
-        if (at == words.size()) return "a step has no dependencies";
-        last = (words[at] & kLastDependency) != 0;
-        if (words[at] == kNone && count_[k] == 0) continue;
-        const std::uint32_t finer = words[at] & ~kLastDependency;
-        if (finer <= (count_[k] == 0 ? k : steps_.back()) || finer >= steps)
-          return "a step depends on one that is not finer, or out of order";
-        steps_.push_back(finer);
-        ++count_[k];
-      }
-    }
-    return at == words.size() ? nullptr : "there are more dependencies than steps";
-  }
-  [[nodiscard]] std::span<const std::uint32_t> of(std::uint32_t step) const {
-    return {steps_.data() + begin_[step], count_[step]};
-  }
-
- private:
-  std::vector<std::uint32_t> steps_, begin_, count_;
-};
-
 // Per step, the first of the vertices that go to its own; and the next one for each of those.
 struct ComingVertices {
   explicit ComingVertices(const LevelTable& levels) {
@@ -59,6 +28,26 @@ struct ComingVertices {
 };
 
 }  // namespace
+
+const char* DependencyLists::read(std::span<const std::uint32_t> words, std::uint32_t steps) {
+  begin_.resize(steps);
+  count_.assign(steps, 0);
+  std::size_t at = 0;
+  for (std::uint32_t k = steps; k-- > 0;) {
+    begin_[k] = static_cast<std::uint32_t>(steps_.size());
+    for (bool last = false; !last; ++at) {
+      if (at == words.size()) return "a step has no dependencies";
+      last = (words[at] & kLastDependency) != 0;
+      if (words[at] == kNone && count_[k] == 0) continue;
+      const std::uint32_t finer = words[at] & ~kLastDependency;
+      if (finer <= (count_[k] == 0 ? k : steps_.back()) || finer >= steps)
+        return "a step depends on one that is not finer, or out of order";
+      steps_.push_back(finer);
+      ++count_[k];
+    }
+  }
+  return at == words.size() ? nullptr : "there are more dependencies than steps";
+}
 
 const char* dependency_fault(std::span<const std::uint32_t> words, const LevelTable& levels) {
   const std::uint32_t steps = levels.finest_level();

@@ -2,6 +2,7 @@
 // there and every collapse has what it depends on.
 #pragma once
 
+#include <varifold/models/common/front_model.h>
 #include <varifold/models/strips/strip_framework.h>
 #include <algorithm>
 #include <cstddef>
@@ -9,14 +10,6 @@
 #include <vector>
 
 namespace varifold {
-
-struct AdaptOptions {
-  /// A step is split where its urgency is greater: pixels, for criteria of a view. At least 0.
-  float tolerance = 1;
-  /// At most so many triangles, unless the base has more: the tolerance is raised as far as that
-  /// needs. Collapsed steps of equal urgency stay together, so it may be fewer than could be.
-  std::uint32_t max_triangles = kNone;
-};
 
 /// The urgency of every step, raised to that of the steps that depend on it being split. A step is
 /// split exactly when this is above the tolerance: of all sets of collapses that keep the

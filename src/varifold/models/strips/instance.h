@@ -1,6 +1,7 @@
 // One place in a scene where a strips framework stands, at a level or a front of its own.
 #pragma once
 
+#include <varifold/models/common/front_model.h>
 #include <varifold/models/strips/draw_pages.h>
 #include <varifold/models/strips/front.h>
 #include <varifold/models/strips/strip_framework.h>
@@ -13,14 +14,6 @@
 #include <vector>
 
 namespace varifold {
-
-/// What adapt() did and where that led.
-struct FrontStatistics {
-  std::uint32_t splits = 0, collapses = 0;  ///< done to get here
-  std::uint32_t forced_splits = 0;          ///< of all steps that are split, those nobody asked for
-  std::uint32_t vertices = 0, triangles = 0;
-  float tolerance = 0;  ///< that of the options, or what the budget made of it
-};
 
 /// A cursor over the levels and fronts of a model. Owns the strips (4 bytes a slot), the buffer
 /// that is drawn (somewhat more) and 9 bytes a step; shares the vertices. The functions but

@@ -129,7 +129,8 @@ StripLevels strip_levels(const TriangleMesh& mesh, const LevelTable& levels,
     result.places_stay_whole = false;
     return result;
   }
-  const std::vector<std::uint32_t> level_of = triangle_levels(levels, strips, place);
+  result.level_of = triangle_levels(levels, strips, place);
+  const std::vector<std::uint32_t>& level_of = result.level_of;
   result.added.assign(std::size_t{levels.finest_level()} + 1, 0);
   for (const std::uint32_t level : level_of)
     if (level != kNone) ++result.added[level];

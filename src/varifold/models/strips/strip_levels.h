@@ -13,6 +13,9 @@ struct StripLevels {
   /// How many triangles each level adds to the one before, level 0 first. Those that are degenerate
   /// at full detail count nowhere.
   std::vector<std::uint32_t> added;
+  /// Per slot, the coarsest level that has the triangle that begins there; kNone where there is
+  /// none.
+  std::vector<std::uint32_t> level_of;
   /// The first slots of the triangles that, at some level, have corners at two points only, but
   /// three vertices there: where a seam ends, a triangle may collapse onto both of its sides. They
   /// are gone then, but not degenerate to who looks at vertices. Ascending; seldom any.

@@ -1,0 +1,42 @@
+// What the command line and the checks ask of a model whose levels may differ from place to place:
+// one concept that every such model satisfies.
+#pragma once
+
+#include <varifold/base/math.h>
+#include <varifold/mesh/triangle_mesh.h>
+#include <varifold/view/criteria.h>
+#include <varifold/view/draw_list.h>
+#include <concepts>
+#include <cstdint>
+
+namespace varifold {
+
+struct AdaptOptions {
+  /// A step is split where its urgency is greater: pixels, for criteria of a view. At least 0.
+  float tolerance = 1;
+  /// At most so many triangles, unless the base has more: the tolerance is raised as far as that
+  /// needs. Collapsed steps of equal urgency stay together, so it may be fewer than could be.
+  std::uint32_t max_triangles = kNone;
+};
+
+/// What adapt() did and where that led.
+struct FrontStatistics {
+  std::uint32_t splits = 0, collapses = 0;  ///< done to get here
+  std::uint32_t forced_splits = 0;          ///< of all steps that are split, those nobody asked for
+  std::uint32_t vertices = 0, triangles = 0;
+  float tolerance = 0;  ///< that of the options, or what the budget made of it
+};
+
+/// A cursor over the fronts of a model. adapt() leads to the front that the criteria ask for:
+/// where nothing is asked it is level 0, and full detail wherever a sphere or a plane asks for
+/// that. What is drawn, as a set of triangles, depends on criteria and options alone, not on the
+/// front before.
+template <class I>
+concept FrontInstance = requires(I& instance, const I& constant, const RefineCriteria& criteria,
+                                 const AdaptOptions& options) {
+  { instance.adapt(criteria, options) } -> std::same_as<FrontStatistics>;
+  { instance.draw_list() } -> std::same_as<DrawList>;
+  { constant.extract() } -> std::same_as<TriangleMesh>;
+};
+
+}  // namespace varifold
