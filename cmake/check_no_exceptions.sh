@@ -7,10 +7,11 @@ cd "$(dirname "$0")/.."
 out=build/no_exceptions
 mkdir -p "$out"
 
-# Of base and mesh what the runtime uses; of each model everything but its build.
+# Of base, mesh and simplify what the runtime uses; of each model everything but its build.
 sources="src/varifold/base/checksum.cpp src/varifold/mesh/triangle_mesh.cpp"
+sources="$sources $(git ls-files 'src/varifold/simplify/sequence_*.cpp' | grep -v sequence_builder)"
 sources="$sources $(git ls-files 'src/varifold/view/*.cpp')"
-sources="$sources $(git ls-files 'src/varifold/models/*/*.cpp' | grep -v -E '([/_]build[a-z_]*|static_removal)\.cpp$')"
+sources="$sources $(git ls-files 'src/varifold/models/*/*.cpp' | grep -v -E '([/_]build[a-z_]*|static_removal|step_bounds)\.cpp$')"
 sources="$sources tests/runtime/no_exceptions.cpp"
 
 compiler=g++

@@ -12,6 +12,7 @@
 #include <varifold/models/pm/build.h>
 #include <varifold/models/pm/encoding.h>
 #include <varifold/models/strips/build.h>
+#include <varifold/models/vdpm/build.h>
 #include <varifold/simplify/simplify.h>
 #include <varifold/strip/stripify.h>
 #include <cstdio>
@@ -103,6 +104,22 @@ bool put_progressive_meshes(const std::filesystem::path& folder) {
   return put(folder / "all", progressive(with_everything(), Placement::kKept, 0)) && done;
 }
 
+bool put_view_dependent_meshes(const std::filesystem::path& folder) {
+  bool done = true;
+  for (const Placement placement : {Placement::kKept, Placement::kOptimal}) {
+    SimplifyOptions options;
+    options.placement = placement;
+    const std::string ending = placement == Placement::kOptimal ? "_optimal" : "";
+    for (const auto& [name, mesh] :
+         {std::pair("sphere", seamed_sphere({.triangles = 60})),
+          std::pair("all", with_everything()), std::pair("plane", plane({.triangles = 18}))})
+      done = put(folder / (name + ending), encode_view_dependent_mesh(build_view_dependent_mesh(
+                                               simplify(mesh, options)->detailed))) &&
+             done;
+  }
+  return done;
+}
+
 // Small, so that a fuzzer gets far in a second.
 bool put_strips(const std::filesystem::path& folder) {
   bool done = true;
@@ -157,6 +174,7 @@ int main(int argc, char** argv) {
   done = put(folder / "container" / "three", *encode_container(fourcc("KIND"), chunks)) && done;
   done = put(folder / "container" / "none", *encode_container(fourcc("KIND"), {})) && done;
   done = put_progressive_meshes(folder / "progressive_mesh") && done;
+  done = put_view_dependent_meshes(folder / "vdpm") && done;
   done = put_strips(folder) && done;
   return done ? 0 : 1;
 }

@@ -52,6 +52,7 @@ void add_build(CLI::App& app, CommandRunner& runner) {
   build->require_subcommand(1);
   add_build_pm(*build, runner);
   add_build_strips(*build, runner);
+  add_build_vdpm(*build, runner);
 }
 
 }  // namespace varifold::cli

@@ -66,5 +66,6 @@ void report_times(const BuildInput& input, const BuildTimes& times, Report& repo
 /// The kinds, as subcommands of `build`.
 void add_build_pm(CLI::App& build, CommandRunner& runner);
 void add_build_strips(CLI::App& build, CommandRunner& runner);
+void add_build_vdpm(CLI::App& build, CommandRunner& runner);
 
 }  // namespace varifold::cli

@@ -15,6 +15,7 @@
 #include <varifold/models/pm/instance.h>
 #include <varifold/models/pm/stream_reader.h>
 #include <varifold/models/strips/build.h>
+#include <varifold/models/vdpm/build.h>
 #include <varifold/simplify/simplify.h>
 #include <algorithm>
 
@@ -171,6 +172,11 @@ StripFramework built(const DetailedMesh& detailed) {
 template <>
 LodStrips built(const DetailedMesh& detailed) {
   return build_lod_strips(detailed);
+}
+
+template <>
+ViewDependentMesh built(const DetailedMesh& detailed) {
+  return build_view_dependent_mesh(detailed);
 }
 
 TEST(AnyModelFile, EveryKindComesBackAsItself) {

@@ -13,6 +13,7 @@
 #include <varifold/models/mts/instance.h>
 #include <varifold/models/pm/build.h>
 #include <varifold/models/strips/build.h>
+#include <varifold/models/vdpm/build.h>
 #include <varifold/simplify/simplify.h>
 #include <algorithm>
 #include <functional>
@@ -291,6 +292,20 @@ TEST(CheckModelStrips, AllGroupsAreSound) {
         build_strip_framework(detailed, test::greedy_strips(detailed.mesh))));
     ASSERT_TRUE(check);
     EXPECT_TRUE(is_sound(check->faults)) << name << ": " << listed(check->faults);
+  }
+}
+
+TEST(CheckModelVdpm, AllGroupsAreSoundWithBothPlacements) {
+  for (const auto& [name, mesh] : test::all_groups()) {
+    for (const Placement placement : {Placement::kKept, Placement::kOptimal}) {
+      SimplifyOptions options;
+      options.placement = placement;
+      const auto check =
+          check_model<ViewDependentInstance>(std::make_shared<const ViewDependentMesh>(
+              build_view_dependent_mesh(simplify(mesh, options)->detailed)));
+      ASSERT_TRUE(check);
+      EXPECT_TRUE(is_sound(check->faults)) << name << ": " << listed(check->faults);
+    }
   }
 }
 

@@ -8,6 +8,7 @@
 #include <varifold/models/mts/build.h>
 #include <varifold/models/pm/build.h>
 #include <varifold/models/strips/build.h>
+#include <varifold/models/vdpm/build.h>
 #include <varifold/simplify/simplify.h>
 #include <varifold/strip/sequence_strips.h>
 #include <varifold/strip/stripify.h>
@@ -38,6 +39,7 @@ std::vector<Shown> all_models(const DetailedMesh& detailed) {
   const TriangleStrips strips = stripify(detailed.mesh);
   const TriangleStrips cached = stripify(detailed.mesh, {.method = StripMethod::kCacheAware});
   return {show("pm", build_progressive_mesh(detailed)),
+          show("vdpm", build_view_dependent_mesh(detailed)),
           show("mts", build_mts(detailed, strips)),
           show("mts of cache strips", build_mts(detailed, cached)),
           show("mts along the sequence", build_mts(detailed, stripify_along_sequence(detailed))),

@@ -12,6 +12,8 @@
 #include <varifold/models/pm/instance.h>
 #include <varifold/models/strips/encoding.h>
 #include <varifold/models/strips/instance.h>
+#include <varifold/models/vdpm/encoding.h>
+#include <varifold/models/vdpm/instance.h>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -92,6 +94,21 @@ struct ModelKind<StripFramework> {
   }
 };
 
+template <>
+struct ModelKind<ViewDependentMesh> {
+  using Instance = ViewDependentInstance;
+  static constexpr const char* kName = "vdpm";
+  static constexpr std::uint32_t kFourcc = fourcc("vdpm");
+  static constexpr std::uint32_t kChunk = fourcc("DATA");
+  static constexpr bool kDense = false;
+  static Result<ViewDependentMesh> decode(std::span<const std::byte> bytes) {
+    return decode_view_dependent_mesh(bytes);
+  }
+  static std::vector<std::byte> encode(const ViewDependentMesh& model) {
+    return encode_view_dependent_mesh(model);
+  }
+};
+
 template <class... Models>
 struct ModelList {
   using Any = std::variant<std::shared_ptr<const Models>...>;
@@ -101,7 +118,8 @@ struct ModelList {
     (visit.template operator()<Models>(), ...);
   }
 };
-using AllModels = ModelList<ProgressiveMesh, StripFramework, LodStrips, MultiresolutionStrips>;
+using AllModels =
+    ModelList<ProgressiveMesh, StripFramework, LodStrips, MultiresolutionStrips, ViewDependentMesh>;
 
 /// One immutable model of any kind; std::visit with a generic lambda, whose parameter is a
 /// std::shared_ptr<const Model>. All kinds satisfy UniformModel, their instances UniformInstance.

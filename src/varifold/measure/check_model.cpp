@@ -6,6 +6,7 @@
 #include <varifold/models/pm/instance.h>
 #include <varifold/models/strips/instance.h>
 #include <varifold/models/strips/verify_dependencies.h>
+#include <varifold/models/vdpm/instance.h>
 
 namespace varifold {
 
@@ -26,6 +27,8 @@ template Result<ModelCheck> check_model<LodStripsInstance>(const std::shared_ptr
                                                            const ModelCheckOptions&);
 template Result<ModelCheck> check_model<MultiresolutionStripsInstance>(
     const std::shared_ptr<const MultiresolutionStrips>&, const ModelCheckOptions&);
+template Result<ModelCheck> check_model<ViewDependentInstance>(
+    const std::shared_ptr<const ViewDependentMesh>&, const ModelCheckOptions&);
 
 Result<ModelCheck> check_progressive_mesh(const std::shared_ptr<const ProgressiveMesh>& model,
                                           const ModelCheckOptions& options) {

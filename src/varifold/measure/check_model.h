@@ -41,7 +41,8 @@ using CheckedModel = std::remove_cvref_t<decltype(std::declval<const Instance&>(
 /// the new vertices of one split are one point, vertices of the base are by position.
 ///
 /// Faults, each with the number of levels that have it and the first of them:
-/// - not_identical: the buffers of a level depend on the way to it
+/// - not_identical: the buffers of a level depend on the way to it; where an instance says
+///   kOrderDependsOnWay, the triangles in them do, whatever their order
 /// - wrong_count: other vertices or triangles than the model promises
 /// - wrong_corner: a triangle whose corners (or material) are not the ancestors of those of one of
 ///   the full mesh, or do not exist

@@ -99,4 +99,33 @@ std::uint64_t fingerprint_of(const DrawList& list, const TriangleMesh& attribute
   return sum.value();
 }
 
+std::uint64_t set_fingerprint_of(const DrawList& list) {
+  // A checksum for each corner; of a triangle, the least corner comes first.
+  const auto corner = [&](std::uint32_t v) {
+    ChecksumStream sum;
+    sum.add(std::as_bytes(list.positions.subspan(v, 1)));
+    if (!list.normals.empty()) sum.add(std::as_bytes(list.normals.subspan(v, 1)));
+    if (!list.texcoords.empty()) sum.add(std::as_bytes(list.texcoords.subspan(v, 1)));
+    if (!list.colors.empty()) sum.add(std::as_bytes(list.colors.subspan(v, 1)));
+    return sum.value();
+  };
+  std::vector<std::uint64_t> corners(list.positions.size());
+  for (std::uint32_t v = 0; v < corners.size(); ++v) corners[v] = corner(v);
+  std::vector<std::array<std::uint64_t, 4>> triangles;
+  for (const DrawRange& range : list.ranges) {
+    for (std::uint32_t i = 0; i + 2 < range.index_count; i += 3) {
+      const auto indices = list.indices.subspan(range.first_index + i, 3);
+      std::array<std::uint64_t, 4> triangle{corners[indices[0]], corners[indices[1]],
+                                            corners[indices[2]], range.material};
+      std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.begin() + 3),
+                  triangle.begin() + 3);
+      triangles.push_back(triangle);
+    }
+  }
+  std::sort(triangles.begin(), triangles.end());
+  ChecksumStream sum;
+  sum.add(std::as_bytes(std::span(triangles)));
+  return sum.value();
+}
+
 }  // namespace varifold::check

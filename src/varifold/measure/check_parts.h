@@ -5,6 +5,7 @@
 #include <varifold/measure/check_model.h>
 #include <varifold/mesh/triangle_mesh.h>
 #include <varifold/mesh/weld.h>
+#include <varifold/models/common/uniform_model.h>
 #include <varifold/view/draw_list.h>
 #include <array>
 #include <cstdint>
@@ -101,8 +102,13 @@ struct TriangleDifferences {
 /// of the model, and its ranges.
 [[nodiscard]] std::uint64_t fingerprint_of(const DrawList& list, const TriangleMesh& attributes);
 
+/// The same of the triangles with their corners' attributes and materials, whatever their order and
+/// numbers.
+[[nodiscard]] std::uint64_t set_fingerprint_of(const DrawList& list);
+
 template <class Instance>
 std::uint64_t fingerprint(Instance& instance) {
+  if constexpr (order_depends_on_way<Instance>()) return set_fingerprint_of(instance.draw_list());
   return fingerprint_of(instance.draw_list(), instance.model().attributes());
 }
 

@@ -129,8 +129,10 @@ class ModelChecker {
 
   // Whatever is drawn must be a vertex of the level.
   bool corners_exist(Instance& instance) {
-    const bool exist =
-        check::indices_exist(instance.draw_list(), model_->vertex_count(instance.level()));
+    const DrawList list = instance.draw_list();
+    const bool exist = check::indices_exist(
+        list, order_depends_on_way<Instance>() ? static_cast<std::uint32_t>(list.positions.size())
+                                               : model_->vertex_count(instance.level()));
     if (!exist) faults_.add("wrong_corner", instance.level(), "no vertex of the level");
     return exist;
   }

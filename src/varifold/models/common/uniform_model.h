@@ -29,8 +29,10 @@ concept UniformModel = requires(const M& model, std::uint32_t number, float frac
   { model.bytes() } -> std::same_as<std::size_t>;
 };
 
-/// A cursor over the levels of a model. go_to_level() and draw_list() allocate nothing; what they
-/// leave depends on the level alone, byte for byte, not on the way to it.
+/// A cursor over the levels of a model. go_to_level() and draw_list() allocate nothing, or nothing
+/// once they have shown as much; what they leave depends on the level alone, byte for byte, not on
+/// the way to it, unless the instance says kOrderDependsOnWay: then the vertices and triangles of
+/// the list do, and their order and numbers do not.
 template <class I, class M>
 concept UniformInstance = UniformModel<M> && std::constructible_from<I, std::shared_ptr<const M>> &&
     requires(I& instance, const I& constant, std::uint32_t level) {
@@ -41,6 +43,15 @@ concept UniformInstance = UniformModel<M> && std::constructible_from<I, std::sha
   { constant.extract() } -> std::same_as<TriangleMesh>;
   { constant.bytes() } -> std::same_as<std::size_t>;
 };
+
+/// Whether draw lists of the same level may have the same vertices and triangles in another order.
+template <class I>
+[[nodiscard]] constexpr bool order_depends_on_way() {
+  if constexpr (requires { I::kOrderDependsOnWay; })
+    return I::kOrderDependsOnWay;
+  else
+    return false;
+}
 
 /// Whether the errors of the levels are measured bounds (CollapseSequence::error_is_measured),
 /// which models say themselves or by their level table.

@@ -1,7 +1,8 @@
 #include <varifold/models/strips/build.h>
 
-#include <varifold/models/strips/build_graph.h>
+#include <varifold/models/common/step_graph.h>
 #include <varifold/models/strips/build_regions.h>
+#include <varifold/models/strips/dependencies.h>
 #include <varifold/models/strips/strip_levels.h>
 #include <algorithm>
 #include <cassert>
@@ -37,7 +38,7 @@ StripFramework build_strip_framework(const DetailedMesh& detailed,
   StripFrameworkData data;
   data.levels = LevelTable(detailed.sequence);
   const StepGraph graph(detailed);
-  data.dependencies = graph.packed();
+  data.dependencies = packed_dependencies(graph);
   measure_regions(detailed, graph, data);
   data.mesh = detailed.mesh;
   data.mesh.indices = {};

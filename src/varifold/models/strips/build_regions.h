@@ -2,7 +2,7 @@
 // costs.
 #pragma once
 
-#include <varifold/models/strips/build_graph.h>
+#include <varifold/models/common/step_graph.h>
 #include <varifold/models/strips/strip_framework.h>
 #include <varifold/simplify/collapse_sequence.h>
 

@@ -1,5 +1,6 @@
 #include <varifold/models/strips/dependencies.h>
 
+#include <varifold/models/common/dependency_walk.h>
 #include <varifold/models/strips/strip_framework.h>
 #include <algorithm>
 
@@ -47,6 +48,21 @@ const char* DependencyLists::read(std::span<const std::uint32_t> words, std::uin
     }
   }
   return at == words.size() ? nullptr : "there are more dependencies than steps";
+}
+
+std::vector<std::uint32_t> packed_dependencies(const StepGraph& graph) {
+  std::vector<std::uint32_t> packed;
+  packed.reserve(graph.edge_count() + graph.step_count() / 8);
+  for (std::uint32_t k = graph.step_count(); k-- > 0;) {
+    const auto steps = graph.of(k);
+    packed.insert(packed.end(), steps.begin(), steps.end());
+    if (steps.empty())
+      packed.push_back(kNone);
+    else
+      packed.back() |= kLastDependency;
+  }
+  packed.shrink_to_fit();
+  return packed;
 }
 
 const char* dependency_fault(std::span<const std::uint32_t> words, const LevelTable& levels) {

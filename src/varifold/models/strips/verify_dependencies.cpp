@@ -1,6 +1,5 @@
 #include <varifold/models/strips/verify_dependencies.h>
 
-#include <varifold/models/strips/build_graph.h>
 #include <varifold/models/strips/dependencies.h>
 #include <varifold/models/strips/strip_levels.h>
 #include <varifold/simplify/collapse_sequence.h>

@@ -1,0 +1,92 @@
+// Private to this folder: the splits of a sequence in some twenty bits each.
+//
+// Based on: [Hoppe1996] section 3.4 (a split told by its place among the neighbours of the vertex).
+// Differs: one bit for each corner at the target says whether it goes to the new vertex, so that
+//   any split of any surface can be told; the third corner of a new triangle is a neighbour of the
+//   two others.
+#pragma once
+
+#include <varifold/base/bit_stream.h>
+#include <varifold/base/math.h>
+#include <varifold/models/vdpm/step_records.h>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace varifold::vdpm {
+
+/// A surface that grows from the base up. Slot 3 t + c is corner c of triangle t; the slots of a
+/// vertex are a list whose order depends on the history alone.
+class GrowingSurface {
+ public:
+  GrowingSurface(std::uint32_t vertices, std::uint32_t triangles);
+
+  /// All three corners must be below the number of vertices.
+  void add(std::uint32_t triangle, const std::array<std::uint32_t, 3>& corners);
+  /// Hands those slots of `target` to `vertex`, which has none, for which goes(slot) is true; asked
+  /// in the order of the list.
+  template <class Goes>
+  void divide(std::uint32_t target, std::uint32_t vertex, const Goes& goes) {
+    std::uint32_t slot = first_[target];
+    first_[target] = last_[target] = kNone;
+    count_[target] = 0;
+    while (slot != kNone) {
+      const std::uint32_t next = next_[slot];
+      append(goes(slot) ? vertex : target, slot);
+      slot = next;
+    }
+  }
+  /// How many places neighbour() has.
+  [[nodiscard]] std::uint32_t neighbours(std::uint32_t a, std::uint32_t b) const {
+    return 2 * (count_[a] + count_[b]);
+  }
+  /// Other corners of the triangles of a, then of b; the same vertex may come again.
+  [[nodiscard]] std::uint32_t neighbour(std::uint32_t a, std::uint32_t b,
+                                        std::uint32_t place) const;
+  /// The first place of `vertex`, or kNone.
+  [[nodiscard]] std::uint32_t place_of(std::uint32_t vertex, std::uint32_t a,
+                                       std::uint32_t b) const;
+  [[nodiscard]] const std::vector<std::uint32_t>& corners() const { return corners_; }
+
+ private:
+  void append(std::uint32_t vertex, std::uint32_t slot);
+  [[nodiscard]] std::uint32_t other(std::uint32_t slot, std::uint32_t which) const;
+
+  std::vector<std::uint32_t> corners_, next_;        // per slot
+  std::vector<std::uint32_t> first_, last_, count_;  // per vertex
+};
+
+/// What both directions know of a step before they read or write its record.
+struct SplitFrame {
+  std::uint32_t first_vertex = 0, end_vertex = 0;
+  std::span<const std::uint32_t> target;  ///< per vertex of the model
+  std::uint32_t ranges = 1;
+};
+
+/// A new triangle and its place among the ranges.
+struct NewTriangle {
+  std::array<std::uint32_t, 3> corners{};
+  std::uint32_t range = 0;
+};
+
+/// Which slots of the targets go to the vertices of a step; `takes` has the new vertex for each
+/// slot that goes, kNone for others. Changes the surface.
+void write_division(const SplitFrame& frame, std::span<const std::uint32_t> takes,
+                    GrowingSurface& surface, BitWriter& bits);
+/// False where the bits end.
+[[nodiscard]] bool read_division(const SplitFrame& frame, GrowingSurface& surface, BitReader& bits);
+
+void write_triangle(const SplitFrame& frame, const NewTriangle& triangle,
+                    const GrowingSurface& surface, BitWriter& bits);
+/// False where the corners are not three vertices of the level, one of them new.
+[[nodiscard]] bool read_triangle(const SplitFrame& frame, const GrowingSurface& surface,
+                                 BitReader& bits, NewTriangle& triangle);
+
+/// The vertices that a collapse moves: mostly the targets.
+void write_moved(const SplitFrame& frame, std::span<const std::uint32_t> moved, BitWriter& bits);
+/// Appends to `moved`; false where the bits end or a vertex is not there at the coarser level.
+[[nodiscard]] bool read_moved(const SplitFrame& frame, BitReader& bits,
+                              std::vector<std::uint32_t>& moved);
+
+}  // namespace varifold::vdpm

@@ -1,0 +1,53 @@
+// One place in a scene where a view-dependent mesh stands, at a level or a front of its own.
+#pragma once
+
+#include <varifold/models/vdpm/active_surface.h>
+#include <varifold/models/vdpm/view_dependent_mesh.h>
+#include <varifold/view/draw_list.h>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+namespace varifold {
+
+/// A cursor over the levels and fronts of a model. Owns vertex and index buffers of what is active.
+/// What is shown depends on level or front alone; where it stands in the buffers, on the way, too.
+/// Move it with its pointer only: what it owns refers to the model.
+class ViewDependentInstance {
+ public:
+  /// Draw lists of the same level may have the same vertices and triangles in another order.
+  static constexpr bool kOrderDependsOnWay = true;
+
+  /// Begins at level 0. O(size of the model).
+  explicit ViewDependentInstance(std::shared_ptr<const ViewDependentMesh> model);
+
+  [[nodiscard]] const ViewDependentMesh& model() const { return *model_; }
+  /// kNone where the front is that of no level.
+  [[nodiscard]] std::uint32_t level() const { return level_; }
+  [[nodiscard]] std::uint32_t vertex_count() const { return surface_.vertex_count(); }
+  [[nodiscard]] std::uint32_t triangle_count() const { return surface_.triangle_count(); }
+  [[nodiscard]] bool is_split(std::uint32_t step) const { return surface_.is_split(step); }
+  [[nodiscard]] const ActiveSurface& surface() const { return surface_; }
+
+  /// To a level, at most the model's finest, from any level or front. O(steps between); from a
+  /// front, O(steps). Allocates only where buffers never had the size.
+  void go_to_level(std::uint32_t level);
+
+  /// Draw-ready buffers; what changed since the last call of this function. Indices name places of
+  /// the buffer of active vertices. Valid until the instance changes.
+  [[nodiscard]] DrawList draw_list() { return surface_.draw_list(); }
+
+  /// Memory of the instance alone.
+  [[nodiscard]] std::size_t bytes() const { return surface_.bytes(); }
+
+  /// A copy as a mesh of its own, with materials: vertices and triangles in the order of the model.
+  /// O(size of the model).
+  [[nodiscard]] TriangleMesh extract() const { return surface_.extract(); }
+
+ private:
+  std::shared_ptr<const ViewDependentMesh> model_;
+  ActiveSurface surface_;
+  std::uint32_t level_ = 0;  // kNone where a front was asked for
+};
+
+}  // namespace varifold
