@@ -40,8 +40,8 @@ std::vector<SurfaceSample> surface_samples(const DetailedMesh& detailed,
   }
 
   // Uniform in the triangle: a point of the square, folded along its diagonal.
-  for (std::size_t i = options.share; i < mesh.triangle_count() * options.inside_triangles;
-       i += options.shares) {
+  for (std::size_t i = options.share;
+       i < std::size_t{mesh.triangle_count()} * options.inside_triangles; i += options.shares) {
     const auto triangle = static_cast<std::uint32_t>(i / options.inside_triangles);
     Random random(i);
     auto u = static_cast<float>(random.uniform()), v = static_cast<float>(random.uniform());
