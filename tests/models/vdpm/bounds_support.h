@@ -19,7 +19,7 @@ struct NamedSequence {
 /// All groups, a planet and a terrain, as far as they have at most so many steps.
 [[nodiscard]] std::vector<NamedSequence> sequences(Placement placement, std::uint32_t most_steps);
 
-/// The coarsest... of the steps that a step requires the finest; kNone for those that require none.
+/// Of the steps that a step requires the finest; kNone for those that require none.
 [[nodiscard]] std::vector<std::uint32_t> finest_required(const DetailedMesh& detailed);
 /// A random smaller step, or kNone, per step.
 [[nodiscard]] std::vector<std::uint32_t> random_parents(std::uint32_t steps, std::uint64_t seed);
@@ -48,7 +48,8 @@ class Stars {
 /// no triangle that one of these steps removes. Kept vertices only.
 [[nodiscard]] TriangleMesh surface_without(const DetailedMesh& detailed,
                                            const std::vector<bool>& is_collapsed);
-/// Random steps, with all that each depends on; some of them far down in one half of the mesh only.
+/// Random steps, with all that each depends on: most of those in one half of the mesh, few in the
+/// other.
 [[nodiscard]] std::vector<bool> random_front(const DetailedMesh& detailed, std::uint64_t seed);
 
 /// Of every sample, which steps move it and how far it is off then, the finest step first.

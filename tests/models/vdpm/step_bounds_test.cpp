@@ -6,7 +6,8 @@
 #include <varifold/measure/closest_point.h>
 #include <varifold/measure/surface_distance.h>
 #include <varifold/mesh/generators.h>
-#include <varifold/models/vdpm/watch_bounds.h>
+#include <varifold/simplify/sample_carrier.h>
+#include <algorithm>
 #include <cstring>
 #include <limits>
 
@@ -157,6 +158,30 @@ TEST(StepBounds, HoldSamplesOnSurfacesWhoseLevelVaries) {
   EXPECT_LT(tightest, 1.01);
 }
 
+TEST_P(StepBoundsOf, HoldSamplesAtEveryLevel) {
+  for (const test::NamedSequence& named : test::sequences(GetParam(), 700)) {
+    SCOPED_TRACE(named.name);
+    const DetailedMesh& detailed = named.detailed;
+    const std::vector<StepBounds> bounds = test::bounds_of(detailed);
+    const test::SampleHistory history = test::history_of_samples(detailed);
+    const double diagonal = varifold::bounds(detailed.mesh).diagonal();
+    const auto steps = static_cast<std::uint32_t>(bounds.size());
+    for (std::uint32_t level = 0; level < steps; level += 1 + steps / 12) {
+      const SurfaceDistance surface(mesh_at_level(detailed, level));
+      for (std::size_t s = 0; s < history.positions.size(); ++s) {
+        double bound = 0;
+        for (const test::Move& move : history.moves[s]) {
+          if (move.step < level) break;
+          bound = std::max(bounds[move.step].mu_length(), bounds[move.step].delta_length());
+        }
+        ASSERT_LE(surface.distance(DVec3(history.positions[s])),
+                  bound * (1 + 1e-5) + 5e-6 * diagonal)
+            << "sample " << s << " at level " << level;
+      }
+    }
+  }
+}
+
 TEST(StepBounds, OfAHeightFieldBoundVerticalDistances) {
   const auto mesh = generate("terrain", {.triangles = 1500});
   const auto result = simplify(*mesh, {.measure_error = false});
@@ -216,86 +241,6 @@ TEST(StepBounds, OfAHeightFieldBoundVerticalDistances) {
   EXPECT_GT(tested, 3 * history.positions.size());
 }
 
-// What the steps below in the tree ask for, entered into every one above, however far.
-struct Exact {
-  std::vector<double> radius, angle, error;
-};
-Exact exact_nesting(const std::vector<StepBounds>& bounds, const std::vector<Vec3>& centers,
-                    const std::vector<std::uint32_t>& parent) {
-  Exact exact;
-  for (std::size_t k = 0; k < bounds.size(); ++k) {
-    exact.radius.push_back(bounds[k].radius_length());
-    exact.angle.push_back(angle_of(bounds[k].own_cone()));
-    exact.error.push_back(std::max(bounds[k].mu_length(), bounds[k].delta_length()));
-  }
-  for (std::size_t k = 0; k < bounds.size(); ++k)
-    for (std::uint32_t a = parent[k]; a != kNone; a = parent[a]) {
-      const NormalCone own = bounds[k].own_cone();
-      exact.radius[a] =
-          std::max(exact.radius[a], glm::length(DVec3(centers[k]) - DVec3(centers[a])) +
-                                        double{bounds[k].radius_length()});
-      exact.angle[a] = std::max(exact.angle[a],
-                                angle_between(own.axis, bounds[a].own_cone().axis) + angle_of(own));
-      exact.error[a] = std::max(
-          {exact.error[a], double{bounds[k].mu_length()}, double{bounds[k].delta_length()}});
-    }
-  return exact;
-}
-
-void expect_nested(const std::vector<StepBounds>& bounds, const Exact& exact, bool is_tight) {
-  constexpr double kRight = 1.5707963267948966;
-  for (std::size_t k = 0; k < bounds.size(); ++k) {
-    SCOPED_TRACE("step " + std::to_string(k));
-    ASSERT_LE(exact.radius[k], bounds[k].nested_radius_length());
-    ASSERT_EQ(exact.error[k], bounds[k].nested_error_length());
-    const bool is_wide = bounds[k].nested_angle == StepBounds::kWide;
-    ASSERT_EQ(is_wide, bounds[k].nested_cone().is_wide());
-    if (exact.angle[k] > kRight) {
-      ASSERT_TRUE(is_wide);
-    }
-    if (!is_wide) {
-      ASSERT_LE(exact.angle[k], angle_of(bounds[k].nested_cone()) + 1e-6);
-      ASSERT_EQ(bounds[k].nested_cone().axis, bounds[k].own_cone().axis);
-    }
-    if (!is_tight) continue;
-    ASSERT_LE(bounds[k].nested_radius_length(), exact.radius[k] * 1.01);
-    if (exact.angle[k] < kRight - 0.003) {
-      ASSERT_FALSE(is_wide);
-      ASSERT_LE(angle_of(bounds[k].nested_cone()), exact.angle[k] + 0.003);
-    }
-  }
-}
-
-TEST_P(StepBoundsOf, NestedBoundsHoldThoseOfAllBelow) {
-  for (const test::NamedSequence& named : test::sequences(GetParam(), 3000)) {
-    SCOPED_TRACE(named.name);
-    const DetailedMesh& detailed = named.detailed;
-    const std::uint32_t steps = detailed.sequence.step_count();
-    const auto watch = test::finest_required(detailed);
-    std::vector<Vec3> centers;
-    for (std::uint32_t k = 0; k < steps; ++k) {
-      if (GetParam() == Placement::kKept) {
-        centers.push_back(detailed.mesh.positions[detailed.sequence.vertices[k]]);
-        continue;
-      }
-      TriangleMesh mesh = detailed.mesh;
-      apply_placement(detailed.sequence, k + 1, mesh);
-      centers.push_back(mesh.positions[detailed.sequence.vertices[k]]);
-    }
-    std::vector<StepBounds> bounds;
-    ASSERT_TRUE(measure_step_bounds(detailed, watch, {}, bounds));
-    expect_nested(bounds, exact_nesting(bounds, centers, watch), true);
-    const auto other = test::random_parents(steps, 9);
-    for (const std::uint32_t depth : {1u, 2u, 7u}) {
-      nest_bounds(other, centers, bounds, depth);
-      expect_nested(bounds, exact_nesting(bounds, centers, other), false);
-    }
-    nest_bounds(other, centers, bounds, steps + 1);
-    expect_nested(bounds, exact_nesting(bounds, centers, other), true);
-    if (HasFatalFailure()) return;
-  }
-}
-
 TEST(StepBounds, DoNotDependOnThreads) {
   for (const Placement placement : {Placement::kKept, Placement::kOptimal}) {
     const auto result =
@@ -322,6 +267,45 @@ TEST(StepBounds, TellHowFarTheyAreAndCanBeCancelled) {
     ASSERT_FALSE(done.empty());
     EXPECT_TRUE(std::is_sorted(done.begin(), done.end()));
     EXPECT_LE(done.back(), 1);
+  }
+}
+
+TEST(SurfaceSamples, AreAllVerticesInUseAndPointsOfAllTriangles) {
+  for (const test::NamedSequence& named : test::sequences(Placement::kKept, 3000)) {
+    SCOPED_TRACE(named.name);
+    const TriangleMesh& mesh = named.detailed.mesh;
+    std::vector<SurfaceSample> samples;
+    for (std::uint32_t share = 0; share < 3; ++share)
+      for (const SurfaceSample& sample : surface_samples(named.detailed, {2, share, 3}))
+        samples.push_back(sample);
+    const auto order = [](const SurfaceSample& a, const SurfaceSample& b) {
+      return std::memcmp(&a, &b, sizeof a) < 0;
+    };
+    std::vector<SurfaceSample> whole = surface_samples(named.detailed, {.inside_triangles = 2});
+    std::sort(samples.begin(), samples.end(), order);
+    std::sort(whole.begin(), whole.end(), order);
+    ASSERT_EQ(samples.size(), whole.size());
+    ASSERT_TRUE(whole.empty() ||
+                std::memcmp(samples.data(), whole.data(), whole.size() * sizeof whole[0]) == 0);
+
+    // On their triangles; two in each, and besides every vertex once.
+    std::vector<int> inside(mesh.triangle_count(), 0), at(mesh.vertex_count(), 0);
+    for (const std::uint32_t v : mesh.indices) at[v] = -1;
+    for (const SurfaceSample& sample : whole) {
+      const std::uint32_t* c = &mesh.indices[3 * std::size_t{sample.triangle}];
+      const auto corner = std::find_if(
+          c, c + 3, [&](std::uint32_t v) { return mesh.positions[v] == sample.position; });
+      if (corner != c + 3)
+        ++at[*corner];
+      else
+        ++inside[sample.triangle];
+      const DVec3 p(sample.position);
+      const DVec3 q = closest_on_triangle(p, DVec3(mesh.positions[c[0]]),
+                                          DVec3(mesh.positions[c[1]]), DVec3(mesh.positions[c[2]]));
+      ASSERT_LE(glm::length(p - q), 1e-6 * bounds(mesh).diagonal());
+    }
+    for (const int count : at) ASSERT_EQ(count, 0);
+    for (const int count : inside) ASSERT_EQ(count, 2);
   }
 }
 
