@@ -27,6 +27,7 @@ class VerticalNearest {
       if (!(other.order < nearest.order)) continue;
       nearest = other;
       best = i;
+      if (nearest.order == 0) break;  // a height field has but one above or below
     }
     way = nearest.point;
     return best;
