@@ -4,6 +4,15 @@
 
 namespace varifold {
 
+ViewDependentMesh::ViewDependentMesh(ViewDependentMeshData data) : data_(std::move(data)) {
+  base_vertices_ = data_.levels.vertex_count(0);
+  one_vertex_a_step_ = data_.mesh.vertex_count() - base_vertices_ == step_count();
+  Box box;
+  for (std::uint32_t step = 0; step < step_count(); ++step) box.add(center(step));
+  bounding_ball_ = sphere_around(box);
+  bounding_ball_.radius *= 1.0001f;  // for roundings
+}
+
 std::size_t ViewDependentMesh::bytes() const {
   const std::size_t words = data_.watch_roots.size() + data_.base_corners.size() +
                             data_.base_triangles.size() + data_.first_placed.size() +

@@ -13,6 +13,7 @@
 #include <varifold/models/common/level_table.h>
 #include <varifold/models/vdpm/step_bounds.h>
 #include <varifold/models/vdpm/step_records.h>
+#include <varifold/view/sphere.h>
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -51,7 +52,7 @@ class ViewDependentMesh : public LevelQueries<ViewDependentMesh> {
  public:
   ViewDependentMesh() = default;
   /// Everything must be consistent, as from build_view_dependent_mesh().
-  explicit ViewDependentMesh(ViewDependentMeshData data) : data_(std::move(data)) {}
+  explicit ViewDependentMesh(ViewDependentMeshData data);
 
   [[nodiscard]] const ViewDependentMeshData& data() const { return data_; }
   [[nodiscard]] const LevelTable& levels() const { return data_.levels; }
@@ -62,17 +63,22 @@ class ViewDependentMesh : public LevelQueries<ViewDependentMesh> {
 
   /// The step's first vertex; those of the step have the numbers from there on. O(1).
   [[nodiscard]] std::uint32_t first_vertex(std::uint32_t step) const {
-    return data_.levels.vertex_count(step);
+    return one_vertex_a_step_ ? step + base_vertices_ : data_.levels.vertex_count(step);
   }
   [[nodiscard]] StepBounds bounds(std::uint32_t step) const {
     const PackedBounds& b = data_.bounds[step];
     return {first_vertex(step), b.cone,        b.radius, b.nested_radius, b.mu, b.delta,
             b.nested_error,     b.nested_angle};
   }
-  /// Of both balls: where the step's point is at full detail.
+  /// Of both balls: where the step's point is when its split makes it.
   [[nodiscard]] const Vec3& center(std::uint32_t step) const {
-    return data_.mesh.positions[first_vertex(step)];
+    const std::uint32_t vertex = first_vertex(step);
+    if (moves_vertices() && data_.first_look[vertex] != kNone)
+      return data_.placed.positions[data_.first_look[vertex]];
+    return data_.mesh.positions[vertex];
   }
+  /// Holds the centres of all steps.
+  [[nodiscard]] const Sphere& bounding_ball() const { return bounding_ball_; }
 
   /// f(coarser step): those that must be split before this one, ascending; nearly always without
   /// those that follow from others.
@@ -118,6 +124,9 @@ class ViewDependentMesh : public LevelQueries<ViewDependentMesh> {
 
  private:
   ViewDependentMeshData data_;
+  Sphere bounding_ball_;
+  std::uint32_t base_vertices_ = 0;
+  bool one_vertex_a_step_ = false;
 };
 
 }  // namespace varifold
