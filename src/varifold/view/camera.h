@@ -78,6 +78,8 @@ class PixelScale {
 
   /// Pixels that a length of one unit covers at distance one.
   [[nodiscard]] float focal_pixels() const { return focal_pixels_; }
+  /// Where everything is that is nearer.
+  [[nodiscard]] float near_distance() const { return near_distance_; }
   /// Size of a pixel, in model units, at a distance from the eye.
   [[nodiscard]] float pixel_size(float distance) const { return clamped(distance) / focal_pixels_; }
   /// Pixels covered by the length `error` at a point.

@@ -12,7 +12,9 @@
 #include <varifold/view/sphere.h>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
+#include <span>
 
 namespace varifold {
 
@@ -31,6 +33,28 @@ struct RegionBounds {
 [[nodiscard]] inline bool touches(const Plane& side, const Sphere& ball) {
   return side.signed_distance(ball.center) >= -ball.radius;
 }
+
+[[nodiscard]] inline bool touches(const Box& box, const Sphere& ball) {
+  const Vec3 away = glm::max(glm::max(box.lower - ball.center, ball.center - box.upper), Vec3(0));
+  return !box.empty() && glm::dot(away, away) <= ball.radius * ball.radius;
+}
+
+/// Detail inside a box down to an error: for collisions, selections, tools.
+struct BoxCriterion {
+  Box box;
+  float error = 0;  ///< model units; regions with greater ones are refined
+  friend bool operator==(const BoxCriterion& a, const BoxCriterion& b) {
+    return a.box.lower == b.box.lower && a.box.upper == b.box.upper && a.error == b.error;
+  }
+};
+
+/// Any other question of the user. It must nest: where it asks for a region, it asks for all that
+/// have a ball around that region's ball and no smaller error.
+class RegionPredicate {
+ public:
+  virtual ~RegionPredicate() = default;
+  [[nodiscard]] virtual bool asks(const Sphere& ball, float error) const = 0;
+};
 
 /// The region may be a part of the outline seen from `eye`: some of it may face the eye, and some
 /// may not.
@@ -119,6 +143,9 @@ class RefineCriteria {
   std::optional<ViewCriterion> view;
   std::optional<Sphere> sphere;  ///< full detail in this ball
   std::optional<Plane> plane;    ///< full detail on the side that the normal points to
+  std::span<const BoxCriterion> boxes;
+  const RegionPredicate* predicate = nullptr;
+  std::uint32_t predicate_version = 0;  ///< to be changed when the predicate's answers change
 
   /// Urgencies of full detail are above this, which no error in pixels reaches; those of greater
   /// errors are greater, for budgets.
@@ -133,7 +160,7 @@ class RefineCriteria {
   template <class ConeOf>
   [[nodiscard]] float urgency(const Sphere& ball, float error, float least,
                               const ConeOf& cone) const {
-    if (is_placed_on(ball)) {
+    if (is_placed_on(ball, error)) {
       const float size = error + ball.radius;
       return kFullDetail * (1.5f + (size > 0 ? error / size : 0.0f));
     }
@@ -141,9 +168,12 @@ class RefineCriteria {
     return std::min(view->urgency({ball, cone(), error}), kFullDetail);
   }
 
- private:
-  [[nodiscard]] bool is_placed_on(const Sphere& ball) const {
-    return (sphere && touches(*sphere, ball)) || (plane && touches(*plane, ball));
+  /// Whether sphere, plane, a box or the predicate asks for it, whatever the view.
+  [[nodiscard]] bool is_placed_on(const Sphere& ball, float error) const {
+    if ((sphere && touches(*sphere, ball)) || (plane && touches(*plane, ball))) return true;
+    for (const BoxCriterion& box : boxes)
+      if (error > box.error && touches(box.box, ball)) return true;
+    return predicate != nullptr && predicate->asks(ball, error);
   }
 };
 

@@ -2,7 +2,7 @@
 
 #include <varifold/base/random.h>
 #include <varifold/mesh/generators.h>
-#include <varifold/models/strips/build_graph.h>
+#include <varifold/models/common/step_graph.h>
 #include <varifold/models/vdpm/vertical_nearest.h>
 #include <varifold/simplify/sample_carrier.h>
 #include <utility>

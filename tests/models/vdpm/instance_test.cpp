@@ -40,5 +40,27 @@ TEST(VdpmInstance, AllocatesNothingOnceWarm) {
   }
 }
 
+TEST(VdpmInstance, FramesAllocateNothingWhereTheyHaveBeen) {
+  const NamedVdpm named = make_vdpm({"sphere", icosphere(5000)}, Placement::kKept);
+  const Sphere ball = named.model->bounding_ball();
+  ViewDependentInstance instance(named.model);
+  for (int round = 0; round < 4; ++round) {
+    const std::size_t before = allocations;
+    for (int frame = 0; frame < 100; ++frame) {
+      const float angle = 0.0628f * static_cast<float>(frame);
+      Camera camera;
+      camera.eye = ball.center + 3 * ball.radius * Vec3(std::cos(angle), 0.4f, std::sin(angle));
+      camera.target = ball.center;
+      RefineCriteria criteria;
+      criteria.view.emplace(camera);
+      instance.adapt(criteria, {0.5f, kNone});
+      (void)instance.draw_list();
+    }
+    if (round == 3) {
+      EXPECT_EQ(allocations, before);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace varifold::test

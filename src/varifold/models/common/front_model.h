@@ -22,9 +22,14 @@ struct AdaptOptions {
 /// What adapt() did and where that led.
 struct FrontStatistics {
   std::uint32_t splits = 0, collapses = 0;  ///< done to get here
-  std::uint32_t forced_splits = 0;          ///< of all steps that are split, those nobody asked for
+  /// Of all steps that are split, those nobody asked for; of those split in this call, where a
+  /// model looks only at what changes.
+  std::uint32_t forced_splits = 0;
   std::uint32_t vertices = 0, triangles = 0;
-  float tolerance = 0;  ///< that of the options, or what the budget made of it
+  float tolerance = 0;        ///< that of the options, or what the budget made of it
+  std::uint32_t tests = 0;    ///< questions asked of steps, where a model counts them
+  std::uint32_t waiting = 0;  ///< steps that wait for the next call because of a limit, ...
+  std::uint32_t refused = 0;  ///< ... of these, for want of triangles in the budget
 };
 
 /// A cursor over the fronts of a model. adapt() leads to the front that the criteria ask for:

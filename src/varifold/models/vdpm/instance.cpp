@@ -6,7 +6,7 @@
 namespace varifold {
 
 ViewDependentInstance::ViewDependentInstance(std::shared_ptr<const ViewDependentMesh> model)
-    : model_(std::move(model)), surface_(*model_) {}
+    : model_(std::move(model)), surface_(*model_), front_(*model_) {}
 
 void ViewDependentInstance::go_to_level(std::uint32_t level) {
   const std::uint32_t finest = model_->finest_level();
@@ -21,6 +21,33 @@ void ViewDependentInstance::go_to_level(std::uint32_t level) {
   for (std::uint32_t k = first; k < std::min(end, level); ++k)
     if (!surface_.is_split(k)) surface_.split(k);
   level_ = level;
+  front_is_stale_ = true;
+}
+
+FrontStatistics ViewDependentInstance::adapt(const RefineCriteria& criteria,
+                                             const AdaptOptions& options,
+                                             const FrontLimits& limits) {
+  if (front_is_stale_) front_.set_level(level_);
+  front_is_stale_ = false;
+  level_ = kNone;
+  if (options.max_triangles == kNone) return front_.adapt(surface_, criteria, options, limits);
+  AdaptOptions budget = options;
+  budget.max_triangles = std::max(options.max_triangles, model_->triangle_count(0));
+  FrontStatistics sum;
+  FrontStatistics last = search_.fit(budget, limits.unused_budget, [&](float tolerance) {
+    const FrontStatistics now =
+        front_.adapt(surface_, criteria, {tolerance, budget.max_triangles}, limits);
+    sum.splits += now.splits;
+    sum.collapses += now.collapses;
+    sum.forced_splits += now.forced_splits;
+    sum.tests += now.tests;
+    return now;
+  });
+  last.splits = sum.splits;
+  last.collapses = sum.collapses;
+  last.forced_splits = sum.forced_splits;
+  last.tests = sum.tests;
+  return last;
 }
 
 }  // namespace varifold

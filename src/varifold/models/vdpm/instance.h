@@ -1,8 +1,12 @@
 // One place in a scene where a view-dependent mesh stands, at a level or a front of its own.
 #pragma once
 
+#include <varifold/models/common/front_model.h>
 #include <varifold/models/vdpm/active_surface.h>
+#include <varifold/models/vdpm/tolerance_search.h>
 #include <varifold/models/vdpm/view_dependent_mesh.h>
+#include <varifold/models/vdpm/view_front.h>
+#include <varifold/view/criteria.h>
 #include <varifold/view/draw_list.h>
 #include <cstddef>
 #include <cstdint>
@@ -33,12 +37,22 @@ class ViewDependentInstance {
   /// front, O(steps). Allocates only where buffers never had the size.
   void go_to_level(std::uint32_t level);
 
+  /// To the coarsest front that has the detail that the criteria ask for, within the budget; it
+  /// depends on criteria and options alone, not on the front before. The cost goes with what
+  /// changes (view_front.h); with a budget the tolerance is searched from that of the last call.
+  FrontStatistics adapt(const RefineCriteria& criteria, const AdaptOptions& options = {}) {
+    return adapt(criteria, options, {});
+  }
+  /// The same with limits for a frame; with these the front may lag behind.
+  FrontStatistics adapt(const RefineCriteria& criteria, const AdaptOptions& options,
+                        const FrontLimits& limits);
+
   /// Draw-ready buffers; what changed since the last call of this function. Indices name places of
   /// the buffer of active vertices. Valid until the instance changes.
   [[nodiscard]] DrawList draw_list() { return surface_.draw_list(); }
 
   /// Memory of the instance alone.
-  [[nodiscard]] std::size_t bytes() const { return surface_.bytes(); }
+  [[nodiscard]] std::size_t bytes() const { return surface_.bytes() + front_.bytes(); }
 
   /// A copy as a mesh of its own, with materials: vertices and triangles in the order of the model.
   /// O(size of the model).
@@ -47,7 +61,10 @@ class ViewDependentInstance {
  private:
   std::shared_ptr<const ViewDependentMesh> model_;
   ActiveSurface surface_;
-  std::uint32_t level_ = 0;  // kNone where a front was asked for
+  ViewFront front_;
+  ToleranceSearch search_;
+  std::uint32_t level_ = 0;      // kNone where a front was asked for
+  bool front_is_stale_ = false;  // it knows nothing of the level
 };
 
 }  // namespace varifold

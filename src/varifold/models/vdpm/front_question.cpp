@@ -1,0 +1,153 @@
+#include <varifold/models/vdpm/front_question.h>
+
+#include <varifold/models/vdpm/region_batch.h>
+#include <varifold/models/vdpm/step_regions.h>
+#include <algorithm>
+
+namespace varifold {
+
+namespace {
+
+// Whether a view asks yes-or-no questions only, whose answers have slack.
+bool is_graded(const ViewCriterion& view) {
+  const auto is_switch = [](float weight) { return weight == 0 || weight == 1; };
+  return !is_switch(view.outside_weight) || !is_switch(view.back_weight) ||
+         view.silhouette_weight != 1 || view.light.has_value();
+}
+
+bool same_place(const std::optional<Sphere>& a, const std::optional<Sphere>& b) {
+  if (a.has_value() != b.has_value()) return false;
+  return !a || (a->center == b->center && a->radius == b->radius);
+}
+bool same_place(const std::optional<Plane>& a, const std::optional<Plane>& b) {
+  if (a.has_value() != b.has_value()) return false;
+  return !a || (a->normal == b->normal && a->offset == b->offset);
+}
+
+constexpr std::size_t kLanes = RegionBatch::kSize;
+
+void set_center(RegionBatch& batch, std::size_t lane, const Vec3& center) {
+  batch.x[lane] = center.x;
+  batch.y[lane] = center.y;
+  batch.z[lane] = center.z;
+}
+
+// Fills lanes with steps, by `set(batch, lane, i)`, and hands on the answers. What is left over in
+// the last batch is asked again for nothing.
+template <class Set>
+void ask_in_batches(const ViewQuery& view, std::size_t count, const Set& set,
+                    std::vector<ViewAnswer>& answers) {
+  RegionBatch batch{};
+  AnswerBatch answer;
+  for (std::size_t begin = 0; begin < count; begin += kLanes) {
+    const std::size_t lanes = std::min(kLanes, count - begin);
+    for (std::size_t lane = 0; lane < lanes; ++lane) set(batch, lane, begin + lane);
+    test_regions(view, batch, answer);
+    for (std::size_t lane = 0; lane < lanes; ++lane) answers[begin + lane] = answer.at(lane);
+  }
+}
+
+}  // namespace
+
+void FrontQuestion::set(const RefineCriteria& criteria, float tolerance, Odometers& odometers) {
+  boxes_.assign(criteria.boxes.begin(), criteria.boxes.end());
+  criteria_ = criteria;
+  criteria_.boxes = boxes_;
+  tolerance_ = tolerance;
+  is_graded_ = criteria.view && is_graded(*criteria.view);
+  if (criteria.view) {
+    const float near_distance = criteria.view->scale.near_distance();
+    view_ =
+        ViewQuery(*criteria.view, tolerance, odometers.reach(criteria.view->eye, near_distance));
+  }
+}
+
+bool FrontQuestion::differs_in_kind(const RefineCriteria& criteria) const {
+  if (is_graded_ || criteria.view.has_value() != criteria_.view.has_value()) return true;
+  if (criteria.view) {
+    const ViewCriterion &a = *criteria.view, &b = *criteria_.view;
+    if (is_graded(a) || a.outside_weight != b.outside_weight || a.back_weight != b.back_weight ||
+        a.scale.near_distance() != b.scale.near_distance())
+      return true;
+  }
+  return !same_place(criteria.sphere, criteria_.sphere) ||
+         !same_place(criteria.plane, criteria_.plane) ||
+         !std::equal(criteria.boxes.begin(), criteria.boxes.end(), boxes_.begin(), boxes_.end()) ||
+         criteria.predicate != criteria_.predicate ||
+         criteria.predicate_version != criteria_.predicate_version;
+}
+
+ViewAnswer FrontQuestion::ask(const ViewRegion& region, float keep) const {
+  const Sphere ball{region.center, region.radius};
+  const float error = std::max(region.mu, region.delta);
+  if (criteria_.is_placed_on(ball, error)) return {true, Mover::kNothing, 0};
+  if (!criteria_.view) return {false, Mover::kNothing, 0};
+  if (is_graded_)
+    return {criteria_.view->urgency({ball, region.cone, error}) > tolerance_ * (1 - keep),
+            Mover::kAll, 0};
+  return view_.test(region, keep);
+}
+
+ViewAnswer FrontQuestion::own(const StepBounds& bounds, const Vec3& center, float keep) const {
+  return ask(own_region(bounds, center), keep);
+}
+
+ViewAnswer FrontQuestion::nested(const StepBounds& bounds, const Vec3& center) const {
+  const ViewRegion region = nested_region(bounds, center);
+  if (!is_graded_) return ask(region, 0);
+  const float error = region.mu;
+  const Sphere ball{region.center, region.radius};
+  return {criteria_.is_placed_on(ball, error) || criteria_.view->bound(ball, error) > tolerance_,
+          Mover::kAll, 0};
+}
+
+bool FrontQuestion::is_plain() const {
+  return criteria_.view && !is_graded_ && !criteria_.sphere && !criteria_.plane && boxes_.empty() &&
+         criteria_.predicate == nullptr;
+}
+
+void FrontQuestion::own(const ViewDependentMesh& model, std::span<const std::uint32_t> steps,
+                        std::span<const std::uint32_t> chosen, std::span<const float> keep,
+                        std::vector<ViewAnswer>& answers) const {
+  answers.resize(chosen.size());
+  if (!is_plain()) {
+    for (std::size_t i = 0; i < chosen.size(); ++i)
+      answers[i] = own(model.bounds(steps[chosen[i]]), model.center(steps[chosen[i]]), keep[i]);
+    return;
+  }
+  const auto set = [&](RegionBatch& batch, std::size_t lane, std::size_t i) {
+    const StepBounds bounds = model.bounds(steps[chosen[i]]);
+    set_center(batch, lane, model.center(steps[chosen[i]]));
+    batch.cone[lane] = bounds.cone;
+    batch.cosine[lane] = own_cosine(bounds);
+    batch.radius[lane] = bounds.radius_length();
+    batch.mu[lane] = bounds.mu_length();
+    batch.delta[lane] = bounds.delta_length();
+    batch.keep[lane] = keep[i];
+  };
+  ask_in_batches(view_, chosen.size(), set, answers);
+}
+
+void FrontQuestion::nested(const ViewDependentMesh& model, std::span<const std::uint32_t> steps,
+                           std::span<const std::uint32_t> chosen,
+                           std::vector<ViewAnswer>& answers) const {
+  answers.resize(chosen.size());
+  if (!is_plain()) {
+    for (std::size_t i = 0; i < chosen.size(); ++i)
+      answers[i] = nested(model.bounds(steps[chosen[i]]), model.center(steps[chosen[i]]));
+    return;
+  }
+  const auto set = [&](RegionBatch& batch, std::size_t lane, std::size_t i) {
+    const StepBounds bounds = model.bounds(steps[chosen[i]]);
+    set_center(batch, lane, model.center(steps[chosen[i]]));
+    batch.cone[lane] = bounds.cone;
+    batch.cosine[lane] = nested_cosine(bounds);
+    batch.radius[lane] = bounds.nested_radius_length();
+    batch.mu[lane] = bounds.nested_error_length();
+    batch.delta[lane] = 0;
+    batch.keep[lane] = 0;
+  };
+  ask_in_batches(view_, chosen.size(), set, answers);
+}
+
+}  // namespace varifold

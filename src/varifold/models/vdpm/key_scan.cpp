@@ -1,0 +1,80 @@
+#include <varifold/models/vdpm/key_scan.h>
+
+#include <bit>
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+
+namespace varifold {
+
+namespace {
+
+// Writes the keys from `first` on that are due behind `end`; returns the new end.
+std::uint32_t* find_rest(std::span<const float> keys, const Odometers& odometers, std::size_t first,
+                         std::uint32_t* end) {
+  for (std::size_t i = first; i < keys.size(); ++i) {
+    *end = static_cast<std::uint32_t>(i);
+    end += odometers.is_due(keys[i]) ? 1 : 0;
+  }
+  return end;
+}
+
+}  // namespace
+
+void find_due_keys_plain(std::span<const float> keys, const Odometers& odometers,
+                         std::vector<std::uint32_t>& due) {
+  due.resize(keys.size() + 1);
+  const std::uint32_t* end = find_rest(keys, odometers, 0, due.data());
+  due.resize(static_cast<std::size_t>(end - due.data()));
+}
+
+#if defined(__x86_64__)
+
+namespace {
+
+constexpr std::size_t kWord = 64;
+
+// Eight keys at a time: the last bits of each choose its odometer. Sixty-four answers are read off
+// together, since few of them are yes.
+__attribute__((target("avx2,bmi"))) void find_due_keys_avx2(std::span<const float> keys,
+                                                            const Odometers& odometers,
+                                                            std::vector<std::uint32_t>& due) {
+  due.resize(keys.size() + 1);
+  std::uint32_t* end = due.data();
+  const __m256 now = _mm256_loadu_ps(odometers.now().data());
+  std::size_t i = 0;
+  for (; i + kWord <= keys.size(); i += kWord) {
+    std::uint64_t yes = 0;
+    for (std::size_t j = 0; j < kWord; j += 8) {
+      const __m256 key = _mm256_loadu_ps(keys.data() + i + j);
+      // The permutation takes the last three bits of each lane and leaves the others alone.
+      const __m256 odometer = _mm256_permutevar8x32_ps(now, _mm256_castps_si256(key));
+      const int mask = _mm256_movemask_ps(_mm256_cmp_ps(odometer, key, _CMP_GE_OQ));
+      yes |= std::uint64_t{static_cast<unsigned>(mask)} << j;
+    }
+    for (; yes != 0; yes &= yes - 1)
+      *end++ = static_cast<std::uint32_t>(i) + static_cast<std::uint32_t>(std::countr_zero(yes));
+  }
+  end = find_rest(keys, odometers, i, end);
+  due.resize(static_cast<std::size_t>(end - due.data()));
+}
+
+const bool kHasAvx2 = __builtin_cpu_supports("avx2") != 0;
+
+}  // namespace
+
+void find_due_keys(std::span<const float> keys, const Odometers& odometers,
+                   std::vector<std::uint32_t>& due) {
+  kHasAvx2 ? find_due_keys_avx2(keys, odometers, due) : find_due_keys_plain(keys, odometers, due);
+}
+
+#else
+
+void find_due_keys(std::span<const float> keys, const Odometers& odometers,
+                   std::vector<std::uint32_t>& due) {
+  find_due_keys_plain(keys, odometers, due);
+}
+
+#endif
+
+}  // namespace varifold
