@@ -1,7 +1,7 @@
 // Prints the tables of docs/algorithms/deviation_space.md.
 #include <benchmarks/bench_meshes.h>
 #include <varifold/base/random.h>
-#include <varifold/models/strips/build_graph.h>
+#include <varifold/models/common/step_graph.h>
 #include <varifold/models/vdpm/deviation_space.h>
 #include <varifold/models/vdpm/step_bounds.h>
 #include <varifold/models/vdpm/watch_bounds.h>
