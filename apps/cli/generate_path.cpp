@@ -14,9 +14,10 @@ void add_path_options(CLI::App& command, PathOptions& options) {
   command.add_option("--frames", options.frames, "path: how many (default 360, 300, 300, 900)")
       ->check(CLI::Range(2u, kMaxPathFrames))
       ->type_name("N");
-  command.add_option("--fovy", options.fovy_degrees, "path: vertical angle of view")
+  command
+      .add_option("--fovy", options.fovy_degrees,
+                  "path: vertical angle of view (default 30; 50 for the canyon)")
       ->check(CLI::Range(0.01, 179.0))
-      ->capture_default_str()
       ->type_name("DEGREES");
   command
       .add_option("--distance", options.distance,

@@ -12,8 +12,7 @@ namespace varifold::cli {
 struct PathOptions {
   std::string name;
   std::optional<std::uint32_t> frames;
-  std::optional<double> distance;
-  double fovy_degrees = 30;
+  std::optional<double> distance, fovy_degrees;
   PictureSize size{1920, 1080};
 };
 void add_path_options(CLI::App& command, PathOptions& options);

@@ -13,8 +13,8 @@ namespace varifold {
 struct KnownPathOptions {
   std::optional<std::uint32_t> frames;  ///< at least 2; keys move in proportion
   int width = 1920, height = 1080;
-  double fovy_degrees = 30;
-  double orbit_distance = 2;  ///< of "orbit": diagonals from the centre, > 0
+  std::optional<double> fovy_degrees;  ///< 30; 50 for the canyon
+  double orbit_distance = 2;           ///< of "orbit": diagonals from the centre, > 0
 };
 
 /// "orbit", "fly_by", "dive", "canyon".
