@@ -1,6 +1,7 @@
 // fuzz_seeds FOLDER: writes a few small files of every format, one folder per target.
 #include <varifold/base/bytes.h>
 #include <varifold/io/any_model.h>
+#include <varifold/io/camera_path_file.h>
 #include <varifold/io/container.h>
 #include <varifold/io/gltf.h>
 #include <varifold/io/obj.h>
@@ -15,6 +16,7 @@
 #include <varifold/models/vdpm/build.h>
 #include <varifold/simplify/simplify.h>
 #include <varifold/strip/stripify.h>
+#include <varifold/view/known_paths.h>
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -55,6 +57,12 @@ constexpr std::string_view kAllOfObj =
 constexpr std::string_view kAsciiStl =
     "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
     "0\nendloop\nendfacet\nendsolid a\n";
+
+constexpr std::string_view kAllOfACameraPath =
+    R"({"varifold_camera_path":1,"name":"a","units":"model","interpolation":"linear",)"
+    R"("closed":true,"frames":9,"size":[64,48],"target":[0,0,0],"up":[0,1,0],"fovy_degrees":40,)"
+    R"("keys":[{"eye":[0,0,2]},{"frame":5,"eye":[1,0,2],"target":[0,1,0],"up":[1,1,0],)"
+    R"("fovy_degrees":1e1}]})";
 
 constexpr std::string_view kSceneGltf =
     R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"children":[1],)"
@@ -141,6 +149,15 @@ bool put_strips(const std::filesystem::path& folder) {
   return done;
 }
 
+bool put_camera_paths(const std::filesystem::path& folder) {
+  bool done = put(folder / "members", as_bytes(kAllOfACameraPath));
+  for (const std::string_view name : known_path_names()) {
+    const std::string text = format_camera_path(*known_path(name, {.frames = 5}));
+    done = put(folder / name, as_bytes(text)) && done;
+  }
+  return done;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -176,5 +193,6 @@ int main(int argc, char** argv) {
   done = put_progressive_meshes(folder / "progressive_mesh") && done;
   done = put_view_dependent_meshes(folder / "vdpm") && done;
   done = put_strips(folder) && done;
+  done = put_camera_paths(folder / "camera_path") && done;
   return done ? 0 : 1;
 }

@@ -1,4 +1,5 @@
 // varifold bench: how fast models change their level, and how fast the levels are drawn.
+#include <apps/cli/bench_camera.h>
 #include <apps/cli/bench_path.h>
 #include <apps/cli/commands.h>
 #include <apps/cli/input.h>
@@ -20,8 +21,12 @@ struct BenchCommand {
   CommonOptions common;
   std::vector<std::string> inputs;
   BenchTest test;
+  CameraTest camera;
+  CameraPath path;  // of the camera test
   std::string draw = "auto";
   std::uint32_t samples = 101;
+
+  [[nodiscard]] bool is_camera_test() const { return test.name == "camera"; }
 };
 
 /// Models with levels per region say how they follow a plane: full detail on the side that its
@@ -46,11 +51,21 @@ class BenchDevice {
   Result<void> look_at(std::span<const Vec3> points, bool call_per_strip) {
     ViewOptions view;
     view.width = view.height = 256;
-    camera_ = make_camera(view, points);
+    const auto camera = make_camera(view, points);
+    if (!camera) return tl::unexpected(camera.error());
+    begin(*camera, call_per_strip);
+    return {};
+  }
+  /// A new model.
+  void begin(const Camera& camera, bool call_per_strip) {
+    camera_ = camera;
     style_.call_per_strip = call_per_strip;
     if (mesh_) renderer_.remove(*mesh_);
     mesh_.reset();
-    return {};
+  }
+  Result<void> draw(const DrawList& list, const Camera& camera) {
+    camera_ = camera;
+    return draw(list);
   }
   /// Uploads what changed, draws, waits for the device.
   Result<void> draw(const DrawList& list) {
@@ -213,15 +228,34 @@ void check_test(const BenchCommand& command, const std::string& input, const Any
       any);
 }
 
+template <class Model>
+Result<Json> bench_camera(const BenchCommand& command, const std::shared_ptr<const Model>& model,
+                          BenchDevice* device) {
+  DrawFrame draw;
+  if (device) {
+    device->begin(Camera(), command.draw == "strips");
+    draw = [device](const DrawList& list, const Camera& camera) {
+      return device->draw(list, camera);
+    };
+  }
+  auto result = CameraWalk<Model>(command.camera, model).run(command.path, draw);
+  if (!result) return result;
+  (*result)["draw"] = device ? command.draw : "none";
+  (*result)["device"] = device ? Json(device->name()) : Json();
+  return result;
+}
+
 Result<Json> bench_model(const BenchCommand& command, const AnyModel& any, BenchDevice* device) {
   return std::visit(
-      [&]<class Model>(const std::shared_ptr<const Model>& model) {
+      [&]<class Model>(const std::shared_ptr<const Model>& model) -> Result<Json> {
+        if (command.is_camera_test()) return bench_camera<Model>(command, model, device);
         return BenchWalk<Model>(command, model, device).run();
       },
       any);
 }
 
 void add_row(const std::string& input, const Json& result, Report& report) {
+  if (result["test"] == "camera") return report.row(input, camera_row(result));
   std::string text = fmt::format("{}: {} of extraction", result["kind"].get<std::string>(),
                                  format_seconds(result["seconds_extraction"].get<double>()));
   text +=
@@ -239,6 +273,8 @@ void add_row(const std::string& input, const Json& result, Report& report) {
 // Without a device, "auto" draws nothing.
 Result<std::optional<BenchDevice>> make_device(BenchCommand& command) {
   std::optional<BenchDevice> device;
+  // Drawing between the frames of a camera would disturb their times.
+  if (command.is_camera_test() && command.draw == "auto") command.draw = "none";
   if (command.draw == "none") return device;
   auto made = BenchDevice::create();
   if (made) {
@@ -252,6 +288,11 @@ Result<std::optional<BenchDevice>> make_device(BenchCommand& command) {
 }
 
 CommandResult run_bench(BenchCommand command) {
+  if (command.is_camera_test()) {
+    auto path = camera_test_path(command.camera);
+    if (!path) return tl::unexpected(std::move(path.error()));
+    command.path = std::move(*path);
+  }
   std::vector<AnyModel> models;
   for (const std::string& input : command.inputs) {
     auto any = read_any_model(input_path(input));
@@ -273,6 +314,18 @@ CommandResult run_bench(BenchCommand command) {
   return finish(report, command.common);
 }
 
+void check_camera_test(const CLI::App& command, const BenchCommand& options) {
+  if (options.is_camera_test()) {
+    if (options.camera.path.empty()) wrong_usage("--test camera needs a --path");
+    if (command.count("--steps") > 0) wrong_usage("--steps: a camera has the frames of its path");
+    return;
+  }
+  for (const char* const option : {"--path", "--pixels", "--triangles", "--size", "--per-frame",
+                                   "--no-frustum", "--no-orientation"})
+    if (command.count(option) > 0)
+      wrong_usage(std::string(option) + " means nothing to --test " + options.test.name);
+}
+
 }  // namespace
 
 void add_bench(CLI::App& app, CommandRunner& runner) {
@@ -284,8 +337,8 @@ void add_bench(CLI::App& app, CommandRunner& runner) {
       ->add_option("--test", options->test.name,
                    "linear: equal strides down and up; exponential: as an object goes away and "
                    "comes back; random: the worst case; plane: full detail on one side of a plane "
-                   "that moves along x, for models with levels per region")
-      ->check(CLI::IsMember({"linear", "exponential", "random", "plane"}))
+                   "that moves along x, for models with levels per region; camera: along a --path")
+      ->check(CLI::IsMember({"linear", "exponential", "random", "plane", "camera"}))
       ->capture_default_str()
       ->type_name("TEST");
   command->add_option("--steps", options->test.steps, "Changes of level")
@@ -305,12 +358,16 @@ void add_bench(CLI::App& app, CommandRunner& runner) {
   command
       ->add_option("--draw", options->draw,
                    "none: extraction alone; strips: a call for each strip; multi: one for all; "
-                   "auto: multi where there is a device")
+                   "auto: multi where there is a device, none for a camera")
       ->check(CLI::IsMember({"auto", "none", "strips", "multi"}))
       ->capture_default_str()
       ->type_name("HOW");
+  add_camera_test_options(*command, options->camera);
   runner.add_common(*command, options->common, false);
-  runner.attach(*command, options->common, [options] { return run_bench(*options); });
+  runner.attach(*command, options->common, [options, command] {
+    check_camera_test(*command, *options);
+    return run_bench(*options);
+  });
 }
 
 }  // namespace varifold::cli

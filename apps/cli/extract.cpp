@@ -45,7 +45,11 @@ CommandResult extract_from(const ExtractCommand& command, const std::shared_ptr<
                            const Stopwatch& watch) {
   const auto output = output_path(command.output);
   std::optional<Camera> camera;
-  if (command.has_view) camera = make_camera(command.view, model->attributes().positions);
+  if (command.has_view) {
+    const auto made = make_camera(command.view, model->attributes().positions);
+    if (!made) return tl::unexpected(made.error());
+    camera = *made;
+  }
   InstanceOf<Model> instance(model);
   const ChosenLevel chosen =
       go_to_choice<Model>(instance, command.level, command.places, camera ? &*camera : nullptr,
@@ -106,7 +110,7 @@ void add_extract(CLI::App& app, CommandRunner& runner) {
       wrong_usage("a LEVEL is needed: --lod, --triangles, --vertices, --error or --pixels");
     check_level_options(options->level);
     static_cast<void>(strip_join(options->strips, options->output));
-    options->has_view = options->view.eye || options->level.pixels;
+    options->has_view = options->view.eye || !options->view.path.empty() || options->level.pixels;
     return run_extract(*options);
   });
 }

@@ -1,6 +1,9 @@
 #include <apps/cli/context.h>
+#include <apps/cli/input.h>
 #include <apps/cli/level_options.h>
+#include <varifold/io/camera_path_file.h>
 #include <varifold/mesh/triangle_mesh.h>
+#include <varifold/view/known_paths.h>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -29,16 +32,16 @@ std::optional<Vector> parse_vector(std::string_view text) {
   return text.empty() ? std::optional(point) : std::nullopt;
 }
 
-std::optional<std::pair<int, int>> parse_size(std::string_view text) {
+std::optional<PictureSize> parse_size(std::string_view text) {
   const std::size_t cross = text.find('x');
   if (cross == text.npos) return std::nullopt;
   const auto parse = [](std::string_view part, int& value) {
     const auto [next, error] = std::from_chars(part.data(), part.data() + part.size(), value);
     return error == std::errc() && next == part.data() + part.size() && value > 0 && value <= 16384;
   };
-  std::pair<int, int> size;
+  PictureSize size;
   const bool is_size =
-      parse(text.substr(0, cross), size.first) && parse(text.substr(cross + 1), size.second);
+      parse(text.substr(0, cross), size.width) && parse(text.substr(cross + 1), size.height);
   return is_size ? std::optional(size) : std::nullopt;
 }
 
@@ -65,6 +68,26 @@ void add_point(CLI::App& command, const std::string& name, const std::string& he
 
 }  // namespace
 
+CLI::Option* add_size_option(CLI::App& command, const std::string& help,
+                             const std::function<void(PictureSize)>& set) {
+  return command
+      .add_option_function<std::string>(
+          "--size",
+          [set](const std::string& text) {
+            const auto size = parse_size(text);
+            if (!size) wrong_usage("--size: '" + text + "' is not a size such as 1280x960");
+            set(*size);
+          },
+          help)
+      ->type_name("WxH");
+}
+
+Result<CameraPath> find_camera_path(const std::string& argument) {
+  const auto names = known_path_names();
+  if (std::find(names.begin(), names.end(), argument) != names.end()) return known_path(argument);
+  return read_camera_path(input_path(argument));
+}
+
 void add_view_options(CLI::App& command, ViewOptions& options) {
   add_point(command, "--eye", "Where the camera stands (default: the whole mesh in view)",
             [&](const Vec3& p) { options.eye = p; });
@@ -77,17 +100,12 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
       ->check(finite_number())
       ->capture_default_str()
       ->type_name("DEGREES");
-  command
-      .add_option_function<std::string>(
-          "--size",
-          [&](const std::string& text) {
-            const auto size = parse_size(text);
-            if (!size) wrong_usage("--size: '" + text + "' is not a size such as 1280x960");
-            options.width = size->first;
-            options.height = size->second;
-          },
-          "Size of the picture in pixels (default 1280x960)")
-      ->type_name("WxH");
+  add_size_option(command, "Size of the picture in pixels (default 1280x960, or the path's)",
+                  [&](PictureSize size) {
+                    options.width = size.width;
+                    options.height = size.height;
+                    options.has_size = true;
+                  });
   command.add_option("--azimuth", options.azimuth_degrees, "Without --eye: turn around --up")
       ->check(CLI::Range(-360.0, 360.0))
       ->check(finite_number())
@@ -98,6 +116,17 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
       ->check(finite_number())
       ->capture_default_str()
       ->type_name("DEGREES");
+  CLI::Option* const path = command
+                                .add_option("--path", options.path,
+                                            "A camera path: orbit, fly_by, dive, canyon or a file")
+                                ->type_name("FILE.json");
+  for (const char* const other :
+       {"--eye", "--target", "--up", "--fovy", "--azimuth", "--elevation"})
+    path->excludes(command.get_option(other));
+  command.add_option("--frame", options.frame, "The frame of the path")
+      ->needs(path)
+      ->capture_default_str()
+      ->type_name("N");
 }
 
 void add_place_options(CLI::App& command, PlaceOptions& options) {
@@ -133,9 +162,29 @@ RefineCriteria make_criteria(const PlaceOptions& places, const Camera* camera) {
   return criteria;
 }
 
-Camera make_camera(const ViewOptions& options, std::span<const Vec3> points) {
+namespace {
+
+Result<Camera> camera_of_path(const ViewOptions& options, const Box& box) {
+  auto path = find_camera_path(options.path);
+  if (!path) return tl::unexpected(std::move(path.error()));
+  if (options.frame >= path->frames)
+    wrong_usage("--frame: " + options.path + " has frames 0 to " +
+                std::to_string(path->frames - 1));
+  if (options.has_size) {
+    path->width = options.width;
+    path->height = options.height;
+  }
+  auto camera = camera_at(*path, options.frame, box);
+  if (!camera) return fail_in(options.path, std::move(camera.error()));
+  return camera;
+}
+
+}  // namespace
+
+Result<Camera> make_camera(const ViewOptions& options, std::span<const Vec3> points) {
   Box box;
   for (const Vec3& p : points) box.add(p);
+  if (!options.path.empty()) return camera_of_path(options, box);
   FrameOptions framing;
   framing.width = options.width;
   framing.height = options.height;

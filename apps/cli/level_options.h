@@ -1,18 +1,32 @@
 // Which level of a model, seen from where: the LEVEL of the command line.
 #pragma once
 
+#include <varifold/base/result.h>
 #include <varifold/io/any_model.h>
 #include <varifold/models/common/uniform_model.h>
 #include <varifold/view/camera.h>
+#include <varifold/view/camera_path.h>
 #include <varifold/view/criteria.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
 
 namespace varifold::cli {
+
+/// Adds --size WxH; sides from 1 to 16384.
+struct PictureSize {
+  int width = 0, height = 0;
+};
+CLI::Option* add_size_option(CLI::App& command, const std::string& help,
+                             const std::function<void(PictureSize)>& set);
+
+/// A camera path: the name of one that comes with the project, or else a file. Errors begin with
+/// the argument.
+[[nodiscard]] Result<CameraPath> find_camera_path(const std::string& argument);
 
 /// Where the camera stands; framed automatically where there is no eye.
 struct ViewOptions {
@@ -23,11 +37,15 @@ struct ViewOptions {
   int height = 960;
   float azimuth_degrees = 30;
   float elevation_degrees = 20;
+  std::string path;  ///< a camera path, instead of all others
+  std::uint32_t frame = 0;
+  bool has_size = false;
 };
 void add_view_options(CLI::App& command, ViewOptions& options);
 
-/// The camera; frames `points` where no eye is given. Wrong usage where it cannot see.
-[[nodiscard]] Camera make_camera(const ViewOptions& options, std::span<const Vec3> points);
+/// The camera; frames `points` where no eye is given. Wrong usage where it cannot see; an error
+/// where a path cannot be read or its frame cannot see.
+[[nodiscard]] Result<Camera> make_camera(const ViewOptions& options, std::span<const Vec3> points);
 
 /// Where the user wants detail, beside the view.
 struct PlaceOptions {
@@ -91,7 +109,7 @@ template <UniformModel Model>
 
 /// Whether levels may follow the view: a camera was placed, or pixels were asked for.
 [[nodiscard]] inline bool asks_for_view(const ViewOptions& view, const LevelOptions& level) {
-  return level.pixels || (view.eye && level.triangles);
+  return level.pixels || ((view.eye || !view.path.empty()) && level.triangles);
 }
 
 /// Takes an instance to what is asked for: a level, or, for models whose levels may differ from

@@ -49,7 +49,8 @@ struct Scene {
 
 CommandResult render_scene(const RenderCommand& command, const Scene& scene, Report& report) {
   const auto output = output_path(command.output);
-  const Camera camera = make_camera(command.view, scene.mesh->positions);
+  const auto camera = make_camera(command.view, scene.mesh->positions);
+  if (!camera) return tl::unexpected(camera.error());
   DrawStyle style;
   style.shading = command.flat ? Shading::kFlat : Shading::kSmooth;
   style.color_mode = color_mode(command.color, *scene.mesh);
@@ -64,12 +65,12 @@ CommandResult render_scene(const RenderCommand& command, const Scene& scene, Rep
   painter->options().supersampling = command.supersampling;
   painter->options().ambient_occlusion = !command.no_occlusion;
   const Stopwatch watch;
-  if (auto painted = painter->paint(scene.list, camera, style, output); !painted)
+  if (auto painted = painter->paint(scene.list, *camera, style, output); !painted)
     return tl::unexpected(painted.error());
   report.count("triangles", "triangles", scene.triangles);
-  report.set("width", camera.width);
-  report.set("height", camera.height);
-  report.row("size", std::to_string(camera.width) + " x " + std::to_string(camera.height));
+  report.set("width", camera->width);
+  report.set("height", camera->height);
+  report.row("size", std::to_string(camera->width) + " x " + std::to_string(camera->height));
   report.text("device", "drawn by", painter->device());
   report.seconds("draw_seconds", "time of the drawing", watch.seconds());
   return kDone;
@@ -90,9 +91,10 @@ template <class Model>
 CommandResult render_level(const RenderCommand& command, const std::shared_ptr<const Model>& model,
                            Report& report) {
   const TriangleMesh& full = model->attributes();
-  const Camera camera = make_camera(command.view, full.positions);
+  const auto camera = make_camera(command.view, full.positions);
+  if (!camera) return tl::unexpected(camera.error());
   InstanceOf<Model> instance(model);
-  const ChosenLevel chosen = go_to_choice<Model>(instance, command.level, command.places, &camera,
+  const ChosenLevel chosen = go_to_choice<Model>(instance, command.level, command.places, &*camera,
                                                  asks_for_view(command.view, command.level));
   warn_of_base(command.input, command.level, model->vertex_count(0), model->triangle_count(0));
   report.text("kind", "kind", ModelKind<Model>::kName);

@@ -37,6 +37,15 @@ TEST(UnitCircle, MirrorImagesHaveTheSameBits) {
   }
 }
 
+TEST(HalfAngleTangent, AgreesWithLibm) {
+  for (double degrees = 0.01; degrees < 180; degrees += 0.37) {
+    const double exact = std::tan(degrees * 3.14159265358979323846 / 360);
+    EXPECT_NEAR(half_angle_tangent(degrees), exact, 1e-13 * exact) << degrees;
+  }
+  EXPECT_EQ(half_angle_tangent(0), 0);
+  EXPECT_DOUBLE_EQ(half_angle_tangent(90), 1);
+}
+
 TEST(ArcCosine, AgreesWithLibmAndClamps) {
   for (int i = -1000; i <= 1000; ++i)
     ASSERT_NEAR(arc_cosine(i / 1000.0), std::acos(i / 1000.0), 3e-8);

@@ -124,6 +124,17 @@ TEST(Png, ErrorsAreClear) {
   EXPECT_EQ(read_png(grey_png(64, 64, 8, bytes_of({0}))).error().kind, ErrorKind::kInvalidInput);
 }
 
+TEST(Png, SmallFilesGetLittleMemory) {
+  // 16384 x 16384 with 16 bits would take half a GiB before the first fault is found.
+  const auto bomb = read_height_map(grey_png(16384, 16384, 16, bytes_of({0})));
+  EXPECT_EQ(bomb.error().kind, ErrorKind::kInvalidInput);
+  EXPECT_EQ(bomb.error().message, "PNG: the file is too short for 16384 x 16384 pixels");
+  // Pictures of one colour shrink the most, and are read.
+  const auto plain = write_png(Image8{4096, 4096, std::vector<std::uint8_t>(3 * 4096 * 4096, 7)});
+  ASSERT_TRUE(plain);
+  EXPECT_TRUE(read_height_map(*plain));
+}
+
 TEST(Png, EveryTruncationIsAnError) {
   const auto whole = write_png(noise(9, 9));
   ASSERT_TRUE(whole);

@@ -79,7 +79,9 @@ TriangleMesh terrain(const TerrainOptions& options) {
                      });
 }
 
-Result<TriangleMesh> terrain(const HeightField& field, int threads) {
+namespace {
+
+Result<void> check_height_field(const HeightField& field) {
   const std::size_t samples = std::size_t{field.width} * field.height;
   if (field.width < 2 || field.height < 2)
     return fail(ErrorKind::kInvalidInput, "a height field needs at least 2 x 2 samples");
@@ -92,22 +94,31 @@ Result<TriangleMesh> terrain(const HeightField& field, int threads) {
     return fail(ErrorKind::kUnsupported, "a height field of " + std::to_string(samples) +
                                              " samples: more than " +
                                              std::to_string(kMaxGeneratedTriangles / 2));
-  if (!(field.spacing > 0) || !std::isfinite(field.spacing) || !std::isfinite(field.height_scale))
+  if (!(field.spacing > 0) || !std::isfinite(field.spacing) || !(field.row_spacing >= 0) ||
+      !std::isfinite(field.row_spacing) || !std::isfinite(field.height_scale))
     return fail(ErrorKind::kInvalidInput, "a height field needs a positive spacing");
   for (std::size_t i = 0; i < samples; ++i)
     if (!std::isfinite(field.heights[i] * field.height_scale))
       return fail(ErrorKind::kInvalidInput,
                   "height " + std::to_string(i) + " of a height field is not finite");
+  return {};
+}
 
+}  // namespace
+
+Result<TriangleMesh> terrain(const HeightField& field, int threads) {
+  if (auto checked = check_height_field(field); !checked)
+    return tl::unexpected(std::move(checked.error()));
   const double spacing = field.spacing;
+  const double row_spacing = field.row_spacing > 0 ? field.row_spacing : field.spacing;
   const double left = -0.5 * spacing * (field.width - 1);
-  const double far = -0.5 * spacing * (field.height - 1);
+  const double far = -0.5 * row_spacing * (field.height - 1);
   return height_grid(field.width, field.height, threads,
                      [&](std::uint32_t column, std::uint32_t row) {
                        const std::size_t sample = std::size_t{row} * field.width + column;
                        return Vec3(static_cast<float>(left + spacing * column),
                                    field.heights[sample] * field.height_scale,
-                                   static_cast<float>(far + spacing * row));
+                                   static_cast<float>(far + row_spacing * row));
                      });
 }
 

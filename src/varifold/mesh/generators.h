@@ -49,7 +49,16 @@ struct HeightField {
   std::vector<float> heights;  ///< width * height, row by row
   float spacing = 1;           ///< model units between neighbouring samples, > 0
   float height_scale = 1;      ///< model units per unit of `heights`
+  float row_spacing = 0;       ///< between neighbouring rows where that differs from `spacing`
 };
+
+/// The same ground with other numbers of samples, both at least 2. Each is a mean of the old
+/// samples around it, weighted by a tent as wide as the farther spacing of the two: linear
+/// interpolation where there are more samples than before, smoothed where there are fewer; corners
+/// stay at their places. The same bits for any number of threads. The field must be one that
+/// terrain() takes. O(samples before and after).
+[[nodiscard]] HeightField resample(const HeightField& field, std::uint32_t width,
+                                   std::uint32_t height, int threads = 0);
 
 /// The surface of a height map, one vertex per sample, centred in x and z; open; texture
 /// coordinates. kInvalidInput when a size does not fit or a height is not finite.

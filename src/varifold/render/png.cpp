@@ -46,6 +46,14 @@ std::uint32_t big_endian(std::span<const std::byte> bytes, std::size_t offset) {
   return value;
 }
 
+/// Of a row before it was compressed, with its filter; at least.
+std::uint64_t row_bytes(std::span<const std::byte> bytes, std::uint32_t width) {
+  constexpr std::array<std::uint64_t, 7> kChannels{1, 1, 3, 1, 2, 1, 4};  // by type of colour
+  const auto bits = std::to_integer<std::uint64_t>(bytes[24]);
+  const auto color = std::to_integer<std::size_t>(bytes[25]);
+  return 1 + width * bits * (color < kChannels.size() ? kChannels[color] : 1) / 8;
+}
+
 /// Checks what can be checked before anything is allocated.
 Result<PngSize> checked_size(std::span<const std::byte> bytes) {
   constexpr std::array<unsigned char, 8> kSignature = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
@@ -62,7 +70,14 @@ Result<PngSize> checked_size(std::span<const std::byte> bytes) {
     return fail(ErrorKind::kUnsupported, "PNG: " + std::to_string(width) + " x " +
                                              std::to_string(height) + " pixels, at most " +
                                              std::to_string(kMaxPictureSize) + " a side");
-  return PngSize{static_cast<int>(width), static_cast<int>(height)};
+  const PngSize size{static_cast<int>(width), static_cast<int>(height)};
+  // Deflate shrinks at most 1032 times, so that a small file cannot ask for much memory.
+  constexpr std::uint64_t kMostShrinking = 1032;
+  if (row_bytes(bytes, width) * height > kMostShrinking * bytes.size())
+    return fail(ErrorKind::kInvalidInput, "PNG: the file is too short for " +
+                                              std::to_string(width) + " x " +
+                                              std::to_string(height) + " pixels");
+  return size;
 }
 
 tl::unexpected<Error> damaged() {

@@ -1,5 +1,6 @@
 #include <varifold/view/camera.h>
 
+#include <varifold/base/angle.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,7 +18,9 @@ bool is_finite(const Vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-float half_tangent(float fovy_degrees) { return std::tan(0.5f * glm::radians(fovy_degrees)); }
+float half_tangent(float fovy_degrees) {
+  return static_cast<float>(half_angle_tangent(fovy_degrees));
+}
 
 /// A unit vector perpendicular to the unit vector `v`, near the z axis where that is possible.
 Vec3 any_perpendicular(const Vec3& v) {

@@ -1,7 +1,6 @@
 #include <varifold/view/frustum.h>
 
-#include <cmath>
-#include <glm/trigonometric.hpp>
+#include <varifold/base/angle.h>
 
 namespace varifold {
 namespace {
@@ -24,7 +23,7 @@ Frustum frustum_of(const Camera& camera) {
   const Vec3 forward = view_direction(camera);
   const Vec3 right = glm::normalize(glm::cross(forward, camera.up));
   const Vec3 up = glm::cross(right, forward);
-  const float tangent_y = std::tan(0.5f * glm::radians(camera.fovy_degrees));
+  const float tangent_y = static_cast<float>(half_angle_tangent(camera.fovy_degrees));
   const float tangent_x = tangent_y * camera.aspect();
 
   Frustum frustum;

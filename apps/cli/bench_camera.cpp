@@ -1,0 +1,205 @@
+#include <apps/cli/bench_camera.h>
+#include <fmt/format.h>
+#include <varifold/base/bytes.h>
+#include <varifold/base/checksum.h>
+#include <cmath>
+
+namespace varifold::cli {
+namespace {
+
+/// The least value that is not below `part` of all values; 0 where there are none.
+double percentile(std::vector<double> values, double part) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  const double rank = std::ceil(part * static_cast<double>(values.size()));
+  return values[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
+}
+
+void add_percentiles(const std::string& name, const std::vector<double>& seconds, Json& result) {
+  for (const auto& [suffix, part] :
+       {std::pair{"_p50", 0.5}, {"_p90", 0.9}, {"_p99", 0.99}, {"_max", 1.0}})
+    result[name + suffix] = 1e3 * percentile(seconds, part);
+}
+
+template <class Value>
+double sum_of(std::span<const CameraFrame> frames, const Value& value) {
+  double sum = 0;
+  for (const CameraFrame& frame : frames) sum += static_cast<double>(value(frame));
+  return sum;
+}
+
+template <class Value>
+double greatest(std::span<const CameraFrame> frames, const Value& value) {
+  double most = 0;
+  for (const CameraFrame& frame : frames) most = std::max<double>(most, value(frame));
+  return most;
+}
+
+/// The same on any machine where the fronts are the same.
+std::string frames_checksum(std::span<const CameraFrame> frames) {
+  std::vector<std::byte> bytes;
+  for (const CameraFrame& frame : frames)
+    for (const std::uint32_t number :
+         {frame.splits, frame.collapses, frame.vertices, frame.triangles})
+      append_little(bytes, number);
+  return fmt::format("{:016x}", checksum(bytes));
+}
+
+Json frame_list(std::span<const CameraFrame> frames, bool is_drawn) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const CameraFrame& frame = frames[i];
+    list.push_back({{"frame", i},
+                    {"triangles", frame.triangles},
+                    {"vertices", frame.vertices},
+                    {"splits", frame.splits},
+                    {"collapses", frame.collapses},
+                    {"forced_splits", frame.forced_splits},
+                    {"tolerance_pixels", frame.tolerance},
+                    {"indices_submitted", frame.indices},
+                    {"adapt_ms", 1e3 * frame.adapt_seconds},
+                    {"draw_list_ms", 1e3 * frame.list_seconds},
+                    {"drawing_ms", is_drawn ? Json(1e3 * frame.draw_seconds) : Json()},
+                    {"jump_pixels", frame.jumps.vertex_pixels},
+                    {"surface_jump_pixels", frame.jumps.surface_pixels}});
+  }
+  return list;
+}
+
+// The first frame comes from the base and belongs to no motion.
+void add_times(std::span<const CameraFrame> frames, Json& result) {
+  const auto later = frames.subspan(1);
+  std::vector<double> adapting, listing;
+  for (const CameraFrame& frame : later) {
+    adapting.push_back(frame.adapt_seconds);
+    listing.push_back(frame.list_seconds);
+  }
+  const double seconds = sum_of(later, [](const auto& f) { return f.adapt_seconds; });
+  const double vertices = sum_of(later, [](const auto& f) { return f.vertices; });
+  const double splits = sum_of(later, [](const auto& f) { return f.splits; });
+  const double collapses = sum_of(later, [](const auto& f) { return f.collapses; });
+  const double count = std::max<double>(1, static_cast<double>(later.size()));
+  const auto per_second = [&](double number) { return seconds > 0 ? number / seconds : 0; };
+  result["adapt_ms_first"] = 1e3 * frames[0].adapt_seconds;
+  result["adapt_ms_mean"] = 1e3 * seconds / count;
+  add_percentiles("adapt_ms", adapting, result);
+  result["adapt_ns_per_vertex"] = vertices > 0 ? 1e9 * seconds / vertices : 0;
+  add_percentiles("draw_list_ms", listing, result);
+  result["splits"] = static_cast<std::uint64_t>(splits);
+  result["collapses"] = static_cast<std::uint64_t>(collapses);
+  result["splits_per_second"] = per_second(splits);
+  result["collapses_per_second"] = per_second(collapses);
+}
+
+void add_fronts(const CameraTest& test, std::span<const CameraFrame> frames, Json& result) {
+  const auto count = static_cast<double>(frames.size());
+  const auto triangles = [](const CameraFrame& f) { return f.triangles; };
+  std::uint32_t least = kNone;
+  for (const CameraFrame& frame : frames) least = std::min(least, frame.triangles);
+  result["triangles_mean"] = sum_of(frames, triangles) / count;
+  result["triangles_min"] = least;
+  result["triangles_max"] = static_cast<std::uint64_t>(greatest(frames, triangles));
+  result["vertices_mean"] = sum_of(frames, [](const auto& f) { return f.vertices; }) / count;
+  const auto forced = [](const CameraFrame& f) { return f.forced_splits; };
+  result["forced_splits_mean"] = sum_of(frames, forced) / count;
+  const auto tolerance = [](const CameraFrame& f) { return f.tolerance; };
+  result["tolerance_pixels_mean"] = sum_of(frames, tolerance) / count;
+  result["tolerance_pixels_max"] = greatest(frames, tolerance);
+  const double goal = test.triangles ? *test.triangles : 0;
+  const auto off_goal = [&](const CameraFrame& f) {
+    return goal > 0 ? std::abs(f.triangles - goal) / goal : 0;
+  };
+  result["triangles_goal"] = test.triangles ? Json(*test.triangles) : Json();
+  result["goal_error_mean"] = test.triangles ? Json(sum_of(frames, off_goal) / count) : Json();
+  result["goal_error_max"] = test.triangles ? Json(greatest(frames, off_goal)) : Json();
+}
+
+void add_jumps(std::span<const CameraFrame> frames, Json& result) {
+  const auto add = [&](const std::string& name, const auto& value) {
+    std::size_t worst = 0;
+    std::vector<double> jumps;
+    for (std::size_t i = 1; i < frames.size(); ++i) {
+      jumps.push_back(value(frames[i]));
+      if (value(frames[i]) > value(frames[worst])) worst = i;
+    }
+    result["max_" + name + "_pixels"] = value(frames[worst]);
+    result["max_" + name + "_frame"] = worst;
+    result[name + "_pixels_p50"] = percentile(jumps, 0.5);
+    result[name + "_pixels_p99"] = percentile(std::move(jumps), 0.99);
+  };
+  add("jump", [](const CameraFrame& f) { return f.jumps.vertex_pixels; });
+  add("surface_jump", [](const CameraFrame& f) { return f.jumps.surface_pixels; });
+}
+
+}  // namespace
+
+void add_camera_test_options(CLI::App& command, CameraTest& test) {
+  const std::string group = "CAMERA (--test camera)";
+  command.add_option("--path", test.path, "The camera path: orbit, fly_by, dive, canyon or a file")
+      ->type_name("FILE.json")
+      ->group(group);
+  command.add_option("--pixels", test.pixels, "At most this error in pixels (default 1)")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("T")
+      ->group(group);
+  command.add_option("--triangles", test.triangles, "At most so many triangles a frame")
+      ->check(CLI::Range(1u, kNone - 1))
+      ->type_name("N")
+      ->group(group);
+  add_size_option(command, "Size of the picture in pixels (default: that of the path)",
+                  [&](PictureSize size) { test.size = size; })
+      ->group(group);
+  command.add_flag("--per-frame", test.per_frame, "List all frames in the JSON")->group(group);
+  command.add_flag("--no-frustum", test.no_frustum, "Full detail outside of the picture too")
+      ->group(group);
+  command.add_flag("--no-orientation", test.no_orientation, "Full detail on back faces too")
+      ->group(group);
+}
+
+Result<CameraPath> camera_test_path(const CameraTest& test) {
+  auto path = find_camera_path(test.path);
+  if (!path) return path;
+  if (test.size) {
+    path->width = test.size->width;
+    path->height = test.size->height;
+  }
+  return path;
+}
+
+Json camera_result(const CameraTest& test, const CameraPath& path,
+                   std::span<const CameraFrame> frames, bool is_drawn) {
+  const double adapting = sum_of(frames, [](const auto& f) { return f.adapt_seconds; });
+  const double listing = sum_of(frames, [](const auto& f) { return f.list_seconds; });
+  const double drawing = sum_of(frames, [](const auto& f) { return f.draw_seconds; });
+  Json result{{"test", "camera"},
+              {"steps", frames.size()},
+              {"path", path.name.empty() ? test.path : path.name},
+              {"frames", frames.size()},
+              {"width", path.width},
+              {"height", path.height},
+              {"pixels", test.tolerance()},
+              {"seconds_total", adapting + listing + drawing},
+              {"seconds_extraction", adapting + listing},
+              {"seconds_drawing", is_drawn ? Json(drawing) : Json()}};
+  add_times(frames, result);
+  add_fronts(test, frames, result);
+  add_jumps(frames, result);
+  result["indices_submitted"] =
+      static_cast<std::uint64_t>(sum_of(frames, [](const auto& f) { return f.indices; }));
+  result["frames_checksum"] = frames_checksum(frames);
+  if (test.per_frame) result["per_frame"] = frame_list(frames, is_drawn);
+  return result;
+}
+
+std::string camera_row(const Json& result) {
+  const auto number = [&](const char* key) { return result[key].get<double>(); };
+  return fmt::format(
+      "{}: {} frames, {:.0f} triangles, {:.3f} ms a frame ({:.3f} at 99 %), {:.1f} ns a vertex, "
+      "{:.0f} splits and {:.0f} collapses a frame, surface jumps {:.2f} pixels at most",
+      result["kind"].get<std::string>(), result["frames"].get<std::uint64_t>(),
+      number("triangles_mean"), number("adapt_ms_p50"), number("adapt_ms_p99"),
+      number("adapt_ns_per_vertex"), number("splits") / std::max(1.0, number("frames") - 1),
+      number("collapses") / std::max(1.0, number("frames") - 1), number("max_surface_jump_pixels"));
+}
+
+}  // namespace varifold::cli

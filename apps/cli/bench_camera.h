@@ -1,0 +1,174 @@
+// varifold bench --test camera: what a model costs along a camera path.
+#pragma once
+
+#include <apps/cli/context.h>
+#include <apps/cli/level_options.h>
+#include <apps/cli/report.h>
+#include <varifold/base/result.h>
+#include <varifold/io/any_model.h>
+#include <varifold/measure/frame_jumps.h>
+#include <varifold/view/camera_path.h>
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace varifold::cli {
+
+struct CameraTest {
+  std::string path;
+  std::optional<double> pixels;
+  std::optional<std::uint32_t> triangles;
+  std::optional<PictureSize> size;
+  bool per_frame = false;
+  bool no_frustum = false, no_orientation = false;
+
+  /// 1 where nothing is asked for; 0, as fine as the triangles allow, with --triangles alone.
+  [[nodiscard]] float tolerance() const {
+    return static_cast<float>(pixels.value_or(triangles ? 0.0 : 1.0));
+  }
+};
+void add_camera_test_options(CLI::App& command, CameraTest& test);
+
+/// The path with the size of the command line.
+[[nodiscard]] Result<CameraPath> camera_test_path(const CameraTest& test);
+
+/// What happened at one frame.
+struct CameraFrame {
+  double adapt_seconds = 0, list_seconds = 0, draw_seconds = 0;
+  std::uint32_t splits = 0, collapses = 0, forced_splits = 0, vertices = 0, triangles = 0;
+  float tolerance = 0;
+  std::uint64_t indices = 0;
+  FrameJumps::Jumps jumps;
+};
+
+/// The results of a walk, as the format of the JSON has them.
+[[nodiscard]] Json camera_result(const CameraTest& test, const CameraPath& path,
+                                 std::span<const CameraFrame> frames, bool is_drawn);
+/// The line for people.
+[[nodiscard]] std::string camera_row(const Json& result);
+
+/// Models whose vertex buffers are not numbered as the collapse sequence say which vertex stands
+/// where in them.
+template <class Model>
+concept NumbersVertices = requires(const InstanceOf<Model>& instance) {
+  {
+    ModelKind<Model>::drawn_vertices(instance)
+    } -> std::convertible_to<std::span<const std::uint32_t>>;
+};
+
+/// Where each vertex goes when it collapses; kNone for those of the base. O(vertices).
+template <UniformModel Model>
+[[nodiscard]] std::vector<std::uint32_t> collapse_targets(const Model& model) {
+  std::vector<std::uint32_t> targets(model.vertex_count(model.finest_level()), kNone);
+  for (std::uint32_t level = 0; level < model.finest_level(); ++level)
+    for (std::uint32_t v = model.vertex_count(level); v < model.vertex_count(level + 1); ++v)
+      targets[v] = model.ancestor(v, level);
+  return targets;
+}
+
+/// Draws a list as a camera sees it; empty where nothing is drawn.
+using DrawFrame = std::function<Result<void>(const DrawList&, const Camera&)>;
+
+template <class Model>
+class CameraWalk {
+ public:
+  CameraWalk(const CameraTest& test, const std::shared_ptr<const Model>& model)
+      : test_(test), model_(model) {
+    for (const Vec3& p : model_->attributes().positions) box_.add(p);
+  }
+
+  /// Walks twice: once against the clock, and once, with an instance of its own, for the jumps.
+  Result<Json> run(const CameraPath& path, const DrawFrame& draw) {
+    const auto cameras = cameras_of(path, box_);
+    if (!cameras) return fail_in(test_.path, cameras.error());
+    std::vector<CameraFrame> frames(cameras->size());
+    std::size_t instance_bytes = 0;
+    if (auto timed = time(*cameras, draw, frames, instance_bytes); !timed)
+      return tl::unexpected(timed.error());
+    measure_jumps(*cameras, frames);
+    Json result{{"kind", ModelKind<Model>::kName}};
+    result.update(camera_result(test_, path, frames, static_cast<bool>(draw)));
+    const double vertices = std::max(1u, model_->vertex_count(model_->finest_level()));
+    result["model_bytes"] = model_->bytes();
+    result["instance_bytes"] = instance_bytes;
+    result["bytes_per_vertex"] = static_cast<double>(model_->bytes()) / vertices;
+    return result;
+  }
+
+ private:
+  Result<void> time(std::span<const Camera> cameras, const DrawFrame& draw,
+                    std::vector<CameraFrame>& frames, std::size_t& instance_bytes) {
+    InstanceOf<Model> instance(model_);
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+      CameraFrame& frame = frames[i];
+      const Stopwatch adapting;
+      frame = adapt(instance, cameras[i]);
+      frame.adapt_seconds = adapting.seconds();
+      const Stopwatch listing;
+      const DrawList list = instance.draw_list();
+      frame.list_seconds = listing.seconds();
+      for (const DrawRange& range : list.ranges) frame.indices += range.index_count;
+      if (!draw) continue;
+      const Stopwatch drawing;
+      if (auto drawn = draw(list, cameras[i]); !drawn) return drawn;
+      frame.draw_seconds = drawing.seconds();
+    }
+    instance_bytes = instance.bytes();
+    return {};
+  }
+
+  void measure_jumps(std::span<const Camera> cameras, std::vector<CameraFrame>& frames) {
+    InstanceOf<Model> instance(model_);
+    FrameJumps jumps(collapse_targets(*model_));
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+      (void)adapt(instance, cameras[i]);
+      const DrawList list = instance.draw_list();
+      std::span<const std::uint32_t> vertices;
+      if constexpr (NumbersVertices<Model>) vertices = ModelKind<Model>::drawn_vertices(instance);
+      frames[i].jumps = jumps.next(list, vertices, cameras[i]);
+    }
+  }
+
+  CameraFrame adapt(InstanceOf<Model>& instance, const Camera& camera) {
+    CameraFrame frame;
+    if constexpr (HasFronts<Model>) {
+      RefineCriteria criteria;
+      criteria.view.emplace(camera);
+      if (test_.no_frustum) criteria.view->outside_weight = 1;
+      if (test_.no_orientation) criteria.view->back_weight = 1;
+      const auto front = ModelKind<Model>::adapt(instance, criteria, test_.tolerance(),
+                                                 test_.triangles.value_or(kNone));
+      frame.splits = front.splits;
+      frame.collapses = front.collapses;
+      frame.forced_splits = front.forced_splits;
+      frame.vertices = front.vertices;
+      frame.triangles = front.triangles;
+      frame.tolerance = front.tolerance;
+    } else {
+      // One level for all: what the nearest point of the bounds needs.
+      const PixelScale scale(camera);
+      const Vec3 nearest = glm::clamp(camera.eye, box_.lower, box_.upper);
+      const std::uint32_t before = instance.level();
+      std::uint32_t level = model_->level_for_error(scale.error_of(test_.tolerance(), nearest));
+      if (test_.triangles) level = std::min(level, model_->level_for_triangles(*test_.triangles));
+      instance.go_to_level(level);
+      frame.splits = level > before ? level - before : 0;
+      frame.collapses = level < before ? before - level : 0;
+      frame.vertices = model_->vertex_count(level);
+      frame.triangles = model_->triangle_count(level);
+      frame.tolerance = scale.pixels_of(model_->error(level), nearest);
+    }
+    return frame;
+  }
+
+  const CameraTest& test_;
+  std::shared_ptr<const Model> model_;
+  Box box_;
+};
+
+}  // namespace varifold::cli
