@@ -10,6 +10,13 @@ void add_simplify_flags(CLI::App& command, SimplifyFlags& flags) {
       ->check(CLI::IsMember({"kept", "optimal"}))
       ->capture_default_str()
       ->type_name("KIND");
+  command
+      .add_option("--metric", flags.metric,
+                  "quadric: distance to planes, fast; energy: distance of samples of the original "
+                  "[Hoppe 1996], slower")
+      ->check(CLI::IsMember({"quadric", "energy"}))
+      ->capture_default_str()
+      ->type_name("KIND");
   const auto add_weight = [&](const char* name, float& weight, const char* help) {
     command.add_option(name, weight, help)
         ->check(CLI::NonNegativeNumber)
@@ -26,6 +33,8 @@ SimplifyOptions simplify_options(const SimplifyFlags& flags, const CommonOptions
                                  const std::filesystem::path& input) {
   SimplifyOptions options;
   options.placement = flags.placement == "optimal" ? Placement::kOptimal : Placement::kKept;
+  options.metric = flags.metric == "energy" ? Metric::kEnergy : Metric::kQuadric;
+  options.energy = flags.energy;
   options.attributes = flags.weights;
   options.threads = common.threads;
   options.progress = show_progress(input.filename().string());

@@ -12,6 +12,8 @@ namespace varifold::cli {
 
 struct SimplifyFlags {
   std::string placement = "kept";
+  std::string metric = "quadric";
+  EnergyOptions energy;
   AttributeWeights weights;
 };
 void add_simplify_flags(CLI::App& command, SimplifyFlags& flags);

@@ -2,6 +2,7 @@
 #include <varifold/simplify/deviation.h>
 
 #include <varifold/mesh/weld.h>
+#include <varifold/simplify/closest_on_triangle.h>
 #include <varifold/simplify/morton.h>
 #include <varifold/simplify/sequence_replay.h>
 #include <algorithm>
@@ -12,28 +13,6 @@
 namespace varifold {
 
 namespace {
-
-// The squared distance from the origin to the triangle (a, b, c), by the region of the triangle's
-// plane in which the nearest point lies [Ericson2005, 5.1.5].
-float distance_squared_to_triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 ab = b - a, ac = c - a;
-  const float d1 = -glm::dot(ab, a), d2 = -glm::dot(ac, a);
-  if (d1 <= 0 && d2 <= 0) return glm::dot(a, a);
-  const float d3 = -glm::dot(ab, b), d4 = -glm::dot(ac, b);
-  if (d3 >= 0 && d4 <= d3) return glm::dot(b, b);
-  const auto to = [](const Vec3& p) { return glm::dot(p, p); };
-  const float vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return to(a + d1 / (d1 - d3) * ab);
-  const float d5 = -glm::dot(ab, c), d6 = -glm::dot(ac, c);
-  if (d6 >= 0 && d5 <= d6) return to(c);
-  const float vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return to(a + d2 / (d2 - d6) * ac);
-  const float va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0)
-    return to(b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b));
-  const float inverse = 1 / (va + vb + vc);
-  return to(a + vb * inverse * ab + vc * inverse * ac);
-}
 
 // The vertices at each position: where a mesh has seams, the triangles around a point are spread
 // over several of them.
@@ -173,8 +152,10 @@ class SampleCarrier {
     std::uint32_t nearest = candidates_[0];
     for (const std::uint32_t triangle : candidates_) {
       const std::uint32_t* corner = &replay_.corners()[3 * std::size_t{triangle}];
-      const float distance = distance_squared_to_triangle(
-          positions_[corner[0]] - p, positions_[corner[1]] - p, positions_[corner[2]] - p);
+      const Vec3 from_p = closest_on_triangle(positions_[corner[0]] - p, positions_[corner[1]] - p,
+                                              positions_[corner[2]] - p)
+                              .position;
+      const float distance = glm::dot(from_p, from_p);
       if (!(distance < least)) continue;
       least = distance;
       nearest = triangle;
