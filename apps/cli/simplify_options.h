@@ -6,6 +6,7 @@
 #include <varifold/simplify/simplify.h>
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace varifold::cli {
@@ -13,7 +14,7 @@ namespace varifold::cli {
 struct SimplifyFlags {
   std::string placement = "kept";
   std::string metric = "quadric";
-  EnergyOptions energy;
+  std::optional<float> energy_samples;
   AttributeWeights weights;
 };
 void add_simplify_flags(CLI::App& command, SimplifyFlags& flags);

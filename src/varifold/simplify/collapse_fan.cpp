@@ -5,6 +5,7 @@
 #include <varifold/simplify/collapse_fan.h>
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
 
 namespace varifold {
@@ -83,79 +84,76 @@ void FanDistances::make_plans(const WorkingSurface& surface, std::span<const Fan
     plan.m = surface.points[fan[i].m].position - apex;
     plan.n = surface.points[fan[i].n].position - apex;
     plan.rim = plan.n - plan.m;
-    const float mm = glm::dot(plan.m, plan.m), nn = glm::dot(plan.n, plan.n);
-    const float mn = glm::dot(plan.m, plan.n);
     const Vec3 cross = glm::cross(plan.m, plan.n);
-    const float square = glm::dot(cross, cross);
     // A face without area has no inside, only edges.
-    const float inverse = inverse_or_zero(square);
-    plan.to_m = inverse > 0 ? inverse * (nn * plan.m - mn * plan.n) : Vec3(0);
-    plan.to_n = inverse > 0 ? inverse * (mm * plan.n - mn * plan.m) : Vec3(0);
-    plan.normal = normalize_or_zero(cross);
-    plan.m_scale = inverse_or_zero(mm);
-    plan.n_scale = inverse_or_zero(nn);
+    const float inverse = inverse_or_zero(glm::length(cross));
+    plan.normal = inverse * cross;
+    plan.to_m = inverse * glm::cross(plan.n, plan.normal);
+    plan.to_n = inverse * glm::cross(plan.normal, plan.m);
+    plan.m_scale = inverse_or_zero(glm::dot(plan.m, plan.m));
+    plan.n_scale = inverse_or_zero(glm::dot(plan.n, plan.n));
     plan.rim_scale = inverse_or_zero(glm::dot(plan.rim, plan.rim));
     plan.needs_n = i + 1 == fan.size() || fan[i + 1].m != fan[i].n;
     plans_.push_back(plan);
   }
 }
 
+namespace {
+
+// A vector register in every processor that matters; GCC and Clang both know this notation.
+using Lanes = float __attribute__((vector_size(16)));
+using IntLanes = std::int32_t __attribute__((vector_size(16)));
+static_assert(FanDistances::kBlock * sizeof(float) == sizeof(Lanes));
+
+Lanes load(const float* from) {
+  Lanes lanes;
+  std::memcpy(&lanes, from, sizeof lanes);
+  return lanes;
+}
+
+struct LaneVec {
+  Lanes x, y, z;
+  LaneVec operator-(const Vec3& v) const { return {x - v.x, y - v.y, z - v.z}; }
+  [[nodiscard]] Lanes dot(const Vec3& v) const { return x * v.x + y * v.y + z * v.z; }
+};
+
+// Squared distance to the segment from the origin along `edge`.
+Lanes squared_to_segment(const LaneVec& p, const Vec3& edge, float scale) {
+  Lanes t = p.dot(edge) * scale;
+  t = t > 0.0f ? t : Lanes{};
+  t = t < 1.0f ? t : Lanes{} + 1.0f;
+  const Lanes x = p.x - t * edge.x, y = p.y - t * edge.y, z = p.z - t * edge.z;
+  return x * x + y * y + z * z;
+}
+
+}  // namespace
+
 template <bool kWithFace>
 void FanDistances::measure(std::size_t begin, std::size_t end, const Vec3& apex) {
   for (std::size_t block = begin; block < end; block += kBlock) {
-    const float* x = &x_[block];
-    const float* y = &y_[block];
-    const float* z = &z_[block];
-    float px[kBlock], py[kBlock], pz[kBlock], least[kBlock];
-    std::int32_t nearest[kBlock];
-    for (std::size_t i = 0; i < kBlock; ++i) {
-      px[i] = x[i] - apex.x, py[i] = y[i] - apex.y, pz[i] = z[i] - apex.z;
-      least[i] = kFar;
-      nearest[i] = 0;
-    }
-    const auto take = [&](const float* squared, std::int32_t face) {
-      for (std::size_t i = 0; i < kBlock; ++i) {
-        if constexpr (kWithFace) nearest[i] = squared[i] < least[i] ? face : nearest[i];
-        least[i] = squared[i] < least[i] ? squared[i] : least[i];
-      }
+    const LaneVec p = LaneVec{load(&x_[block]), load(&y_[block]), load(&z_[block])} - apex;
+    Lanes least = Lanes{} + kFar;
+    IntLanes nearest{};
+    IntLanes face{};
+    const auto take = [&](const Lanes& squared) {
+      if constexpr (kWithFace) nearest = squared < least ? face : nearest;
+      least = squared < least ? squared : least;
     };
-    // Distance to the segment from `start`, relative to the apex, along `edge`.
-    const auto segment = [&](const Vec3& start, const Vec3& edge, float scale, float* squared) {
-      for (std::size_t i = 0; i < kBlock; ++i) {
-        const float qx = px[i] - start.x, qy = py[i] - start.y, qz = pz[i] - start.z;
-        float t = (qx * edge.x + qy * edge.y + qz * edge.z) * scale;
-        t = t > 0 ? t : 0;
-        t = t < 1 ? t : 1;
-        const float rx = qx - t * edge.x, ry = qy - t * edge.y, rz = qz - t * edge.z;
-        squared[i] = rx * rx + ry * ry + rz * rz;
-      }
-    };
-    for (std::size_t f = 0; f < plans_.size(); ++f) {
-      const Plan& plan = plans_[f];
-      const auto face = static_cast<std::int32_t>(f);
-      float squared[kBlock];
-      segment(Vec3(0), plan.m, plan.m_scale, squared);
-      take(squared, face);
-      segment(plan.m, plan.rim, plan.rim_scale, squared);
-      take(squared, face);
-      if (plan.needs_n) {
-        segment(Vec3(0), plan.n, plan.n_scale, squared);
-        take(squared, face);
-      }
-      for (std::size_t i = 0; i < kBlock; ++i) {
-        const float at_m = px[i] * plan.to_m.x + py[i] * plan.to_m.y + pz[i] * plan.to_m.z;
-        const float at_n = px[i] * plan.to_n.x + py[i] * plan.to_n.y + pz[i] * plan.to_n.z;
-        const float height = px[i] * plan.normal.x + py[i] * plan.normal.y + pz[i] * plan.normal.z;
-        // The least of the three weights tells whether the foot lies inside.
-        const float at_apex = 1 - at_m - at_n;
-        float inside = at_m < at_n ? at_m : at_n;
-        inside = inside < at_apex ? inside : at_apex;
-        squared[i] = inside > 0 ? height * height : kFar;
-      }
-      take(squared, face);
+    for (const Plan& plan : plans_) {
+      take(squared_to_segment(p, plan.m, plan.m_scale));
+      take(squared_to_segment(p - plan.m, plan.rim, plan.rim_scale));
+      if (plan.needs_n) take(squared_to_segment(p, plan.n, plan.n_scale));
+      // The least of the three weights tells whether the foot lies inside.
+      const Lanes at_m = p.dot(plan.to_m), at_n = p.dot(plan.to_n);
+      const Lanes at_apex = 1.0f - at_m - at_n;
+      Lanes inside = at_m < at_n ? at_m : at_n;
+      inside = inside < at_apex ? inside : at_apex;
+      const Lanes height = p.dot(plan.normal);
+      take(inside > 0.0f ? height * height : Lanes{} + kFar);
+      face += 1;
     }
-    std::copy_n(least, kBlock, &squared_[block]);
-    if constexpr (kWithFace) std::copy_n(nearest, kBlock, &nearest_[block]);
+    std::memcpy(&squared_[block], &least, sizeof least);
+    if constexpr (kWithFace) std::memcpy(&nearest_[block], &nearest, sizeof nearest);
   }
 }
 

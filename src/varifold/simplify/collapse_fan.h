@@ -30,11 +30,11 @@ void make_fan(const WorkingSurface& surface, const FanEdge& edge, std::vector<Fa
 void changed_faces(const WorkingSurface& surface, const FanEdge& edge,
                    std::vector<std::uint32_t>& faces);
 
-/// Samples axis by axis, padded to blocks that compilers turn into vector instructions, and the
-/// nearest face found for each.
+/// Samples axis by axis, padded to blocks that fit a vector register, and the nearest face found
+/// for each.
 class FanDistances {
  public:
-  static constexpr std::size_t kBlock = 8;
+  static constexpr std::size_t kBlock = 4;
 
   void clear() { size_ = 0; }
   /// Keeps the first `size` samples.

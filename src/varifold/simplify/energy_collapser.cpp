@@ -19,6 +19,9 @@ namespace {
 
 constexpr std::uint32_t kReportEvery = 4096;
 constexpr std::size_t kPointsPerPiece = 4096;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// So many legal collapses of a point are fitted.
+constexpr int kMaxFitted = 2;
 
 class EnergyCollapser {
  public:
@@ -29,7 +32,10 @@ class EnergyCollapser {
         options_(options),
         energy_(input, options.energy),
         heap_(input.surface.point_count()) {
-    if (placement) recorder_.emplace(input.surface, input.mesh, *placement);
+    if (placement) {
+      recorder_.emplace(input.surface, input.mesh, *placement);
+      place_.resize(surface_.point_count());
+    }
     changed_at_.assign(surface_.point_count(), 0);
     seen_at_.assign(surface_.point_count(), 0);
   }
@@ -56,41 +62,84 @@ class EnergyCollapser {
  private:
   using Collapse = SurfaceEnergy::Collapse;
 
-  // The cheapest legal collapse of a point; infinite where there is none.
+  // The cheapest legal collapse of a point; onto kNone where there is none.
   [[nodiscard]] Collapse find_best(EnergyScratch& scratch, std::uint32_t point) {
-    Collapse best{point, kNone, false, Vec3(0), {std::numeric_limits<double>::infinity(), 0, 0}};
+    const Collapse none{point, kNone, false, Vec3(0), {kInfinity, 0, 0}};
     const PointState& state = surface_.points[point];
     const CollapseAlong along = kCollapseAlong[static_cast<int>(state.kind)];
-    if (along == CollapseAlong::kNothing) return best;
+    if (along == CollapseAlong::kNothing) return none;
     energy_.look_at(scratch, point);
-    const auto consider = [&](std::uint32_t onto) {
-      if (along == CollapseAlong::kFeatureEdge && !edge_use(surface_, point, onto).is_feature())
-        return;
-      RingMerger merger(surface_, scratch.merge);
-      if (field_ && !merger.match_wedges(field_, point, onto)) return;
-      const Collapse found = evaluate(scratch, onto, best.change.total());
-      if (found.change.total() < best.change.total() && is_legal(scratch, found)) best = found;
-    };
     // The best one of last time is likely to be good still, and then the others are seen to be
     // worse before all of their samples have been measured.
-    const std::uint32_t last = state.target;
-    const auto ring = surface_.ring_span(point);
-    const bool has_last = std::any_of(ring.begin(), ring.end(),
-                                      [&](const RingEntry& e) { return e.neighbor == last; });
-    if (has_last) consider(last);
-    for (const RingEntry& entry : ring)
-      if (entry.neighbor != last) consider(entry.neighbor);
+    scratch.neighbors.clear();
+    for (const RingEntry& entry : surface_.ring_span(point)) {
+      if (along == CollapseAlong::kFeatureEdge &&
+          !edge_use(surface_, point, entry.neighbor).is_feature())
+        continue;
+      scratch.neighbors.push_back(entry.neighbor);
+      if (entry.neighbor == state.target)
+        std::swap(scratch.neighbors.front(), scratch.neighbors.back());
+    }
+    return recorder_ ? find_best_placed(scratch, none) : find_best_kept(scratch, none);
+  }
+
+  [[nodiscard]] Collapse find_best_kept(EnergyScratch& scratch, const Collapse& none) {
+    Collapse best = none;
+    for (const std::uint32_t onto : scratch.neighbors) {
+      if (field_ && !match(scratch, best.from, onto)) continue;
+      const Collapse found = energy_.kept(scratch, onto, best.change.total());
+      if (found.change.total() < best.change.total() && is_legal(scratch, found)) best = found;
+    }
     return best;
   }
 
-  [[nodiscard]] Collapse evaluate(EnergyScratch& scratch, std::uint32_t onto, double limit) {
-    // A feature vertex, or a corner, does not leave its feature for an inner one.
-    const VertexKind from_kind = surface_.points[scratch.star].kind;
+  // Of all neighbours the start is evaluated, but only the most promising are fitted.
+  [[nodiscard]] Collapse find_best_placed(EnergyScratch& scratch, const Collapse& none) {
+    std::vector<Collapse>& starts = scratch.starts;
+    starts.clear();
+    double limit = kInfinity;
+    for (const std::uint32_t onto : scratch.neighbors) {
+      if (field_ && !match(scratch, none.from, onto)) continue;
+      starts.push_back(moves(none.from, onto) ? energy_.started(scratch, onto, limit)
+                                              : energy_.kept(scratch, onto, limit));
+      limit = std::min(limit, starts.back().change.total());
+    }
+    std::sort(starts.begin(), starts.end(), [](const Collapse& a, const Collapse& b) {
+      const double x = a.change.total(), y = b.change.total();
+      return x != y ? x < y : a.onto < b.onto;
+    });
+    Collapse best = none;
+    int found = 0;
+    for (const Collapse& start : starts) {
+      if (found == kMaxFitted || !(start.change.total() < kInfinity)) break;
+      if (field_ && !match(scratch, start.from, start.onto)) continue;
+      const Collapse end = finish(scratch, start, limit);
+      if (!is_legal(scratch, end)) continue;
+      ++found;
+      if (end.change.total() < best.change.total()) best = end;
+    }
+    return best;
+  }
+
+  // Above the limit a start was not measured to its end.
+  [[nodiscard]] Collapse finish(EnergyScratch& scratch, const Collapse& start, double limit) const {
+    if (!start.moves) return energy_.kept(scratch, start.onto, kInfinity);
+    const bool measured = start.change.total() <= limit;
+    return energy_.fitted(scratch,
+                          measured ? start : energy_.started(scratch, start.onto, kInfinity));
+  }
+
+  // A feature vertex, or a corner, does not leave its feature for an inner one.
+  [[nodiscard]] bool moves(std::uint32_t from, std::uint32_t onto) const {
+    const VertexKind from_kind = surface_.points[from].kind;
     const VertexKind kind = surface_.points[onto].kind;
-    const bool stays = !recorder_ ||
-                       (kind != VertexKind::kManifold && from_kind == VertexKind::kManifold) ||
+    const bool stays = (kind != VertexKind::kManifold && from_kind == VertexKind::kManifold) ||
                        kind == VertexKind::kCorner || kind == VertexKind::kLocked;
-    return stays ? energy_.kept(scratch, onto, limit) : energy_.placed(scratch, onto);
+    return !stays;
+  }
+
+  [[nodiscard]] bool match(EnergyScratch& scratch, std::uint32_t from, std::uint32_t onto) {
+    return RingMerger(surface_, scratch.merge).match_wedges(field_, from, onto);
   }
 
   // The input's normal where the point will be.
@@ -107,8 +156,13 @@ class EnergyCollapser {
                                      options_.legality)
               : test_collapse(surface_, from, onto, options_.legality);
     if (refusal != Refusal::kLegal) return false;
-    return (!field_ && !surface_.wedge.has_seams()) ||
-           RingMerger(surface_, scratch.merge).match_wedges(field_, from, onto);
+    return (!field_ && !surface_.wedge.has_seams()) || match(scratch, from, onto);
+  }
+
+  // All that is kept of an evaluation but its cost, which is in the queue.
+  void note(const Collapse& best) {
+    surface_.points[best.from].target = best.onto;
+    if (recorder_) place_[best.from] = best.place;
   }
 
   void queue_all() {
@@ -118,7 +172,7 @@ class EnergyCollapser {
       EnergyScratch scratch;
       for (auto p = static_cast<std::uint32_t>(begin); p < end; ++p) {
         const Collapse best = find_best(scratch, p);
-        surface_.points[p].target = best.onto;
+        note(best);
         costs[p] = static_cast<float>(best.change.total());
       }
     });
@@ -136,7 +190,7 @@ class EnergyCollapser {
   // Sets a point's entry in the queue. False where it has no legal collapse.
   bool update(std::uint32_t point) {
     const Collapse best = find_best(scratch_, point);
-    surface_.points[point].target = best.onto;
+    note(best);
     seen_at_[point] = now();
     if (best.onto == kNone) {
       heap_.remove(point);
@@ -152,24 +206,16 @@ class EnergyCollapser {
       update(point);
       return;
     }
-    // What was found is not kept, so it is found again, with the wedges matched.
     const std::uint32_t onto = surface_.points[point].target;
-    energy_.look_at(scratch_, point);
-    RingMerger merger(surface_, scratch_.merge);
-    const bool matched =
-        (!field_ && !surface_.wedge.has_seams()) || merger.match_wedges(field_, point, onto);
-    if (!matched) {
-      update(point);
-      return;
-    }
-    const Collapse best = evaluate(scratch_, onto, std::numeric_limits<double>::infinity());
+    const Vec3 place = recorder_ ? place_[point] : surface_.points[onto].position;
+    const Collapse best{point, onto, recorder_ && moves(point, onto), place, {}};
     if (is_legal(scratch_, best))
-      collapse(best);
+      collapse(best, heap_.top_cost());
     else  // the valence of the target may have grown
       update(point);
   }
 
-  void collapse(const Collapse& best) {
+  void collapse(const Collapse& best, float cost) {
     const auto [from, onto, moves, place, change] = best;
     PointState& state = surface_.points[from];
     PointState& target = surface_.points[onto];
@@ -188,7 +234,7 @@ class EnergyCollapser {
     target.error = std::max(state.error, error);
     surface_.face_count -= static_cast<std::uint32_t>(removed);
     heap_.remove(from);
-    out_.costs.push_back(static_cast<float>(change.total()));
+    out_.costs.push_back(cost);
     out_.log.entries.push_back({from, onto, target.error, 0, static_cast<std::uint16_t>(removed)});
     touch(onto);
     const auto ring = surface_.ring_span(onto);
@@ -211,7 +257,8 @@ class EnergyCollapser {
   }
 
   [[nodiscard]] std::size_t scratch_bytes() const {
-    return (changed_at_.capacity() + seen_at_.capacity()) * sizeof(std::uint32_t);
+    return (changed_at_.capacity() + seen_at_.capacity()) * sizeof(std::uint32_t) +
+           place_.capacity() * sizeof(Vec3);
   }
 
   WorkingSurface& surface_;
@@ -222,6 +269,7 @@ class EnergyCollapser {
   std::optional<PlacementRecorder> recorder_;
   std::vector<std::uint32_t> changed_at_;  // per point: the step that changed its faces last
   std::vector<std::uint32_t> seen_at_;     // per point: steps done when it was evaluated
+  std::vector<Vec3> place_;                // per point: where its best collapse leads, if recorded
   EnergyScratch scratch_;
   std::vector<RingEntry> around_;
   EnergyLog out_;

@@ -13,9 +13,10 @@ namespace varifold {
 struct EnergyOptions {
   /// Samples beside the vertices, spread evenly over the area: so many for each triangle of the
   /// input on average.
-  float samples_per_triangle = 0;
-  /// Multiplies the spring constants, 1e-2 to 1e-8.
-  float spring = 1;
+  float samples_per_triangle = 1;
+  /// Multiplies the spring constants of the paper, 1e-2, 1e-4 and 1e-8, which are made for dozens of
+  /// samples a triangle: with few, springs of that strength outweigh the distances.
+  float spring = 0.01f;
   std::uint64_t seed = 1;  ///< of the places of the samples
 };
 

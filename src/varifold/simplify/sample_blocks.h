@@ -3,8 +3,11 @@
 
 #include <varifold/base/math.h>
 #include <varifold/simplify/block_pool.h>
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace varifold {
@@ -37,11 +40,27 @@ class SampleBlocks {
       block.offset = larger;
     }
     pool_.at(block.offset)[block.size++] = sample;
+    ++live_;
+  }
+
+  /// Moves everything together where most of the memory lies free: as samples gather on fewer
+  /// owners, blocks of sizes that nobody needs any more are left. Amortised O(1) a sample.
+  void tidy() {
+    if (pool_.bytes() <= kMinTidyBytes + 4 * live_ * sizeof(EnergySample)) return;
+    Pool tidied;
+    for (Owner& block : owners_) {
+      if (block.size == 0) continue;
+      const std::uint32_t offset = tidied.allocate(block.size);
+      std::copy_n(pool_.at(block.offset), block.size, tidied.at(offset));
+      block.offset = offset;
+    }
+    pool_ = std::move(tidied);
   }
 
   void clear(std::uint32_t owner) {
     Owner& block = owners_[owner];
     if (block.size > 0) pool_.release(block.offset, block.size);
+    live_ -= block.size;
     block = {};
   }
 
@@ -60,8 +79,10 @@ class SampleBlocks {
   struct Owner {
     std::uint32_t offset = 0, size = 0;
   };
+  static constexpr std::size_t kMinTidyBytes = 1 << 16;
   std::vector<Owner> owners_;
   Pool pool_;
+  std::size_t live_ = 0;  // samples of all owners
 };
 
 }  // namespace varifold

@@ -14,6 +14,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Steps of projecting and fitting; a step must gain this part of the energy for another to follow.
 constexpr int kMaxFits = 4;
 constexpr double kWorthwhile = 0.02;
+// A place farther from the middle of the edge, in squared lengths of it, is a spike between
+// samples.
+constexpr double kReach = 1;
 
 // Neighbours, each once: rings of several fans repeat some.
 template <class Visit>
@@ -192,19 +195,33 @@ SurfaceEnergy::Collapse SurfaceEnergy::kept(EnergyScratch& scratch, std::uint32_
   return {edge.from, onto, false, place, change_at(scratch, edge, place, limit)};
 }
 
-SurfaceEnergy::Collapse SurfaceEnergy::placed(EnergyScratch& scratch, std::uint32_t onto) const {
+SurfaceEnergy::Collapse SurfaceEnergy::started(EnergyScratch& scratch, std::uint32_t onto,
+                                               double limit) const {
   const FanEdge edge{scratch.star, onto, true};
   look_at(scratch, edge);
   const Vec3 start = surface_.points[edge.from].position;
   const Vec3 end = surface_.points[onto].position;
-  Collapse best{edge.from, onto, true, start, {kInfinity, 0, 0}};
+  Collapse best{edge.from, onto, true, end, {kInfinity, 0, 0}};
   for (const float t : {0.5f, 0.0f, 1.0f}) {
     const Vec3 place = start + t * (end - start);
-    const EnergyChange change = change_at(scratch, edge, place, best.change.total());
-    if (change.total() < best.change.total()) best.place = place, best.change = change;
+    const EnergyChange change = change_at(scratch, edge, place, limit);
+    if (!(change.total() < best.change.total())) continue;
+    best.place = place, best.change = change;
+    limit = std::min(limit, change.total());
   }
+  return best;
+}
+
+SurfaceEnergy::Collapse SurfaceEnergy::fitted(EnergyScratch& scratch, const Collapse& start) const {
+  const FanEdge edge{start.from, start.onto, true};
+  look_at(scratch, edge);
+  const Vec3 from = surface_.points[edge.from].position, onto = surface_.points[edge.onto].position;
+  const Vec3 middle = 0.5f * (from + onto);
+  const double length = squared_length(from, onto);
+  Collapse best = start;
   for (int i = 0; i < kMaxFits; ++i) {
     const Vec3 place = fit(scratch, edge, best.place);
+    if (!(squared_length(place, middle) < kReach * length)) break;
     const EnergyChange change = change_at(scratch, edge, place, best.change.total());
     const double gain = best.change.total() - change.total();
     if (!(gain > 0)) break;
@@ -269,6 +286,7 @@ float SurfaceEnergy::collapse(EnergyScratch& scratch, const Collapse& collapse) 
                         {distances[i], squared + error, field_ ? scratch.attributes[i] : kNone});
     greatest = std::max(greatest, squared);
   }
+  samples_.blocks.tidy();
   if (field_ && edge.moves) {
     const auto& [from, onto] = std::pair{scratch.merge.moved_from, scratch.merge.moved_onto};
     const float t = edge_parameter(surface_.points[edge.from].position,

@@ -29,6 +29,14 @@ struct EnergyInput {
   AttributeField* attributes;  ///< values of the wedges; null or empty: geometry alone decides
 };
 
+/// An evaluated collapse. Where it does not move the vertex that stays, `place` is that of `onto`.
+struct EnergyCollapse {
+  std::uint32_t from, onto;
+  bool moves;
+  Vec3 place;
+  EnergyChange change;
+};
+
 /// Memory that evaluations use again and again; one for each thread.
 struct EnergyScratch {
   std::vector<FanFace> fan;
@@ -40,6 +48,8 @@ struct EnergyScratch {
   std::uint32_t star = kNone;             ///< the point whose faces and their samples come first
   std::size_t star_samples = 0, star_faces = 0;
   double star_before = 0;
+  std::vector<std::uint32_t> neighbors;
+  std::vector<EnergyCollapse> starts;
   MergeScratch merge;
 };
 
@@ -47,14 +57,7 @@ class SurfaceEnergy {
  public:
   SurfaceEnergy(const EnergyInput& input, const EnergyOptions& options);
 
-  /// An evaluated collapse. Where it does not move the vertex that stays, `place` is that of
-  /// `onto`.
-  struct Collapse {
-    std::uint32_t from, onto;
-    bool moves;
-    Vec3 place;
-    EnergyChange change;
-  };
+  using Collapse = EnergyCollapse;
 
   /// Says that the next evaluations are of collapses of `from`. O(its samples).
   void look_at(EnergyScratch& scratch, std::uint32_t from) const;
@@ -64,9 +67,13 @@ class SurfaceEnergy {
   /// O(samples around from x faces around from).
   [[nodiscard]] Collapse kept(EnergyScratch& scratch, std::uint32_t onto, double limit) const;
 
-  /// The collapse with the vertex that stays where the energy is least: of both ends and the
-  /// middle the best, then a few steps of projecting samples and fitting the vertex to them.
-  [[nodiscard]] Collapse placed(EnergyScratch& scratch, std::uint32_t onto) const;
+  /// The collapse that moves the vertex that stays to the best of both ends and the middle; limits
+  /// are as for kept().
+  [[nodiscard]] Collapse started(EnergyScratch& scratch, std::uint32_t onto, double limit) const;
+
+  /// Lowers the energy of a collapse that moves its vertex: in a few steps, projects the samples
+  /// and fits the vertex to them by least squares.
+  [[nodiscard]] Collapse fitted(EnergyScratch& scratch, const Collapse& start) const;
 
   /// Samples to their new faces. To be called just before the rings are merged, with the wedges
   /// matched. Returns the greatest distance of the samples that moved, unit scale.
