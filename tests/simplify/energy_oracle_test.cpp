@@ -186,12 +186,12 @@ struct Oracle {
 };
 
 void expect_near(const EnergyChange& is, const EnergyChange& expected) {
-  const auto near = [](double a, double b) {
-    ASSERT_NEAR(a, b, 2e-3 * std::max(std::abs(a), std::abs(b)) + 1e-10);
+  const auto near = [](const char* term, double a, double b) {
+    ASSERT_NEAR(a, b, 2e-3 * std::max(std::abs(a), std::abs(b)) + 1e-10) << term;
   };
-  near(is.surface, expected.surface);
-  near(is.spring, expected.spring);
-  near(is.curve, expected.curve);
+  near("surface", is.surface, expected.surface);
+  near("spring", is.spring, expected.spring);
+  near("curve", is.curve, expected.curve);
 }
 
 class EnergyOracle : public testing::TestWithParam<std::tuple<const char*, float>> {};
@@ -225,14 +225,16 @@ TEST_P(EnergyOracle, ChangesAreDifferencesOfEnergies) {
     expect_near(best.change, oracle.change(best));
     if (state.kind == surface.points[onto].kind) {
       const EnergyCollapse start = energy.started(scratch, onto, kInfinity);
-      expect_near(start.change, oracle.change(start));
       const EnergyCollapse fitted = energy.fitted(scratch, start);
-      expect_near(fitted.change, oracle.change(fitted));
       EXPECT_LE(fitted.change.total(), start.change.total());
-      if (random.below(2) == 0 &&
-          test_placed_collapse(surface, {from, onto, fitted.place, state.normal}, {}) ==
-              Refusal::kLegal)
-        best = fitted;
+      // What is not legal may be a needle, in which floats find no normal.
+      const auto is_legal = [&](const EnergyCollapse& c) {
+        return test_placed_collapse(surface, {from, onto, c.place, state.normal}, {}) ==
+               Refusal::kLegal;
+      };
+      if (is_legal(start)) expect_near(start.change, oracle.change(start));
+      if (is_legal(fitted)) expect_near(fitted.change, oracle.change(fitted));
+      if (random.below(2) == 0 && is_legal(fitted)) best = fitted;
     }
     if (HasFatalFailure()) return;
     ++steps;
