@@ -225,7 +225,7 @@ TEST_P(EnergyOracle, ChangesAreDifferencesOfEnergies) {
     const Oracle oracle(surface, energy);
     expect_near(best.change, oracle.change(best), scratch.before);
     if (state.kind == surface.points[onto].kind) {
-      const EnergyCollapse start = energy.started(scratch, onto, kInfinity);
+      const EnergyCollapse start = energy.started(scratch, onto);
       const EnergyCollapse fitted = energy.fitted(scratch, start);
       EXPECT_LE(fitted.change.total(), start.change.total());
       // What is not legal may be a needle, in which floats find no normal.

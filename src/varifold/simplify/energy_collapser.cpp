@@ -93,14 +93,14 @@ class EnergyCollapser {
     return best;
   }
 
-  // Of all neighbours the start is evaluated, but only the most promising are fitted.
+  // Of all neighbours the middle is evaluated, but only the most promising are fitted.
   [[nodiscard]] Collapse find_best_placed(EnergyScratch& scratch, const Collapse& none) {
     std::vector<Collapse>& starts = scratch.starts;
     starts.clear();
     double limit = kInfinity;
     for (const std::uint32_t onto : scratch.neighbors) {
       if (field_ && !match(scratch, none.from, onto)) continue;
-      starts.push_back(moves(none.from, onto) ? energy_.started(scratch, onto, limit)
+      starts.push_back(moves(none.from, onto) ? energy_.middle(scratch, onto, limit)
                                               : energy_.kept(scratch, onto, limit));
       limit = std::min(limit, starts.back().change.total());
     }
@@ -113,20 +113,14 @@ class EnergyCollapser {
     for (const Collapse& start : starts) {
       if (found == kMaxFitted || !(start.change.total() < kInfinity)) break;
       if (field_ && !match(scratch, start.from, start.onto)) continue;
-      const Collapse end = finish(scratch, start, limit);
+      const Collapse end = start.moves
+                               ? energy_.fitted(scratch, energy_.started(scratch, start.onto))
+                               : energy_.kept(scratch, start.onto, kInfinity);
       if (!is_legal(scratch, end)) continue;
       ++found;
       if (end.change.total() < best.change.total()) best = end;
     }
     return best;
-  }
-
-  // Above the limit a start was not measured to its end.
-  [[nodiscard]] Collapse finish(EnergyScratch& scratch, const Collapse& start, double limit) const {
-    if (!start.moves) return energy_.kept(scratch, start.onto, kInfinity);
-    const bool measured = start.change.total() <= limit;
-    return energy_.fitted(scratch,
-                          measured ? start : energy_.started(scratch, start.onto, kInfinity));
   }
 
   // A feature vertex, or a corner, does not leave its feature for an inner one.

@@ -14,8 +14,8 @@ struct EnergyOptions {
   /// Samples beside the vertices, spread evenly over the area: so many for each triangle of the
   /// input on average.
   float samples_per_triangle = 1;
-  /// Multiplies the spring constants of the paper, 1e-2, 1e-4 and 1e-8, which are made for dozens of
-  /// samples a triangle: with few, springs of that strength outweigh the distances.
+  /// Multiplies the spring constants of the paper, 1e-2, 1e-4 and 1e-8, which are made for dozens
+  /// of samples a triangle: with few, springs of that strength outweigh the distances.
   float spring = 0.01f;
   std::uint64_t seed = 1;  ///< of the places of the samples
 };

@@ -158,32 +158,46 @@ float SurfaceEnergy::attribute_error(const EnergyScratch& scratch, const Vec3& p
 }
 
 // Finds the nearest faces and sums everything up.
-double SurfaceEnergy::sample_energy(EnergyScratch& scratch, const FanEdge& edge,
-                                    const Vec3& place) const {
-  gather_values(scratch, edge, place);
+double SurfaceEnergy::nearest_energy(EnergyScratch& scratch, const FanEdge& edge,
+                                     const Vec3& place) const {
+  if (field_) gather_values(scratch, edge, place);
   scratch.distances.find_nearest(surface_, scratch.fan, place);
   double sum = 0;
-  for (std::size_t i = 0; i < scratch.distances.size(); ++i)
-    sum += scratch.distances.squared(i) + attribute_error(scratch, place, i);
+  for (std::size_t i = 0; i < scratch.distances.size(); ++i) {
+    sum += scratch.distances.squared(i);
+    if (field_) sum += attribute_error(scratch, place, i);
+  }
   return sum;
 }
 
-EnergyChange SurfaceEnergy::change_at(EnergyScratch& scratch, const FanEdge& edge,
-                                      const Vec3& place, double limit) const {
+EnergyChange SurfaceEnergy::spring_and_curve_change(EnergyScratch& scratch, const FanEdge& edge,
+                                                    const Vec3& place) const {
   EnergyChange change;
-  if (scratch.fan.empty()) {
-    change.surface = kInfinity;  // nothing would be left that samples could go to
-    return change;
-  }
   change.spring = spring_change(scratch, edge, place);
   if (curves_.contains(edge.from)) {
     const auto stretch = curves_.stretch(edge.from, edge.onto, edge.moves);
     change.curve = curves_.energy_at(surface_, stretch, place) - curves_.energy(stretch);
   }
+  return change;
+}
+
+EnergyChange SurfaceEnergy::change_at(EnergyScratch& scratch, const FanEdge& edge,
+                                      const Vec3& place, double limit) const {
+  if (field_) return change_with_nearest(scratch, edge, place);
+  // Nothing would be left that samples could go to.
+  if (scratch.fan.empty()) return {kInfinity, 0, 0};
+  EnergyChange change = spring_and_curve_change(scratch, edge, place);
   const double left = limit - change.spring - change.curve + scratch.before;
-  const double after = field_ ? sample_energy(scratch, edge, place)
-                              : scratch.distances.sum(surface_, scratch.fan, place, left);
-  change.surface = after - scratch.before;
+  change.surface = scratch.distances.sum(surface_, scratch.fan, place, left) - scratch.before;
+  return change;
+}
+
+// Afterwards the nearest faces are known.
+EnergyChange SurfaceEnergy::change_with_nearest(EnergyScratch& scratch, const FanEdge& edge,
+                                                const Vec3& place) const {
+  if (scratch.fan.empty()) return {kInfinity, 0, 0};
+  EnergyChange change = spring_and_curve_change(scratch, edge, place);
+  change.surface = nearest_energy(scratch, edge, place) - scratch.before;
   return change;
 }
 
@@ -195,19 +209,21 @@ SurfaceEnergy::Collapse SurfaceEnergy::kept(EnergyScratch& scratch, std::uint32_
   return {edge.from, onto, false, place, change_at(scratch, edge, place, limit)};
 }
 
-SurfaceEnergy::Collapse SurfaceEnergy::started(EnergyScratch& scratch, std::uint32_t onto,
-                                               double limit) const {
+SurfaceEnergy::Collapse SurfaceEnergy::middle(EnergyScratch& scratch, std::uint32_t onto,
+                                              double limit) const {
   const FanEdge edge{scratch.star, onto, true};
   look_at(scratch, edge);
-  const Vec3 start = surface_.points[edge.from].position;
-  const Vec3 end = surface_.points[onto].position;
-  Collapse best{edge.from, onto, true, end, {kInfinity, 0, 0}};
-  for (const float t : {0.5f, 0.0f, 1.0f}) {
-    const Vec3 place = start + t * (end - start);
-    const EnergyChange change = change_at(scratch, edge, place, limit);
-    if (!(change.total() < best.change.total())) continue;
-    best.place = place, best.change = change;
-    limit = std::min(limit, change.total());
+  const Vec3 place = 0.5f * (surface_.points[edge.from].position + surface_.points[onto].position);
+  return {edge.from, onto, true, place, change_at(scratch, edge, place, limit)};
+}
+
+SurfaceEnergy::Collapse SurfaceEnergy::started(EnergyScratch& scratch, std::uint32_t onto) const {
+  const FanEdge edge{scratch.star, onto, true};
+  Collapse best = middle(scratch, onto, kInfinity);
+  for (const std::uint32_t end : {edge.from, onto}) {
+    const Vec3 place = surface_.points[end].position;
+    const EnergyChange change = change_at(scratch, edge, place, best.change.total());
+    if (change.total() < best.change.total()) best.place = place, best.change = change;
   }
   return best;
 }
@@ -215,14 +231,16 @@ SurfaceEnergy::Collapse SurfaceEnergy::started(EnergyScratch& scratch, std::uint
 SurfaceEnergy::Collapse SurfaceEnergy::fitted(EnergyScratch& scratch, const Collapse& start) const {
   const FanEdge edge{start.from, start.onto, true};
   look_at(scratch, edge);
+  if (scratch.fan.empty()) return start;
   const Vec3 from = surface_.points[edge.from].position, onto = surface_.points[edge.onto].position;
   const Vec3 middle = 0.5f * (from + onto);
   const double length = squared_length(from, onto);
   Collapse best = start;
+  best.change = change_with_nearest(scratch, edge, start.place);
   for (int i = 0; i < kMaxFits; ++i) {
     const Vec3 place = fit(scratch, edge, best.place);
     if (!(squared_length(place, middle) < kReach * length)) break;
-    const EnergyChange change = change_at(scratch, edge, place, best.change.total());
+    const EnergyChange change = change_with_nearest(scratch, edge, place);
     const double gain = best.change.total() - change.total();
     if (!(gain > 0)) break;
     best.place = place, best.change = change;
@@ -231,11 +249,10 @@ SurfaceEnergy::Collapse SurfaceEnergy::fitted(EnergyScratch& scratch, const Coll
   return best;
 }
 
-// With every sample at a fixed point of its nearest face, where is the sum of squares least? A
-// sample then wants its part of the vertex at what the other corners leave.
+// With every sample at a fixed point of its nearest face, which must be known for `place`, where is
+// the sum of squares least? A sample then wants its part of the vertex at what the others leave.
 Vec3 SurfaceEnergy::fit(EnergyScratch& scratch, const FanEdge& edge, const Vec3& place) const {
-  FanDistances& distances = scratch.distances;
-  distances.find_nearest(surface_, scratch.fan, place);
+  const FanDistances& distances = scratch.distances;
   // About `place`, so that little is lost to rounding.
   double weight = 0;
   DVec3 sum(0);

@@ -67,9 +67,11 @@ class SurfaceEnergy {
   /// O(samples around from x faces around from).
   [[nodiscard]] Collapse kept(EnergyScratch& scratch, std::uint32_t onto, double limit) const;
 
-  /// The collapse that moves the vertex that stays to the best of both ends and the middle; limits
-  /// are as for kept().
-  [[nodiscard]] Collapse started(EnergyScratch& scratch, std::uint32_t onto, double limit) const;
+  /// The collapse that moves the vertex that stays to the middle of the edge; limits as for kept().
+  [[nodiscard]] Collapse middle(EnergyScratch& scratch, std::uint32_t onto, double limit) const;
+
+  /// To the best of the middle and both ends.
+  [[nodiscard]] Collapse started(EnergyScratch& scratch, std::uint32_t onto) const;
 
   /// Lowers the energy of a collapse that moves its vertex: in a few steps, projects the samples
   /// and fits the vertex to them by least squares.
@@ -92,11 +94,15 @@ class SurfaceEnergy {
                                      const Vec3& place) const;
   [[nodiscard]] EnergyChange change_at(EnergyScratch& scratch, const FanEdge& edge,
                                        const Vec3& place, double limit) const;
+  [[nodiscard]] EnergyChange change_with_nearest(EnergyScratch& scratch, const FanEdge& edge,
+                                                 const Vec3& place) const;
+  [[nodiscard]] EnergyChange spring_and_curve_change(EnergyScratch& scratch, const FanEdge& edge,
+                                                     const Vec3& place) const;
   void gather_values(EnergyScratch& scratch, const FanEdge& edge, const Vec3& place) const;
   [[nodiscard]] float attribute_error(const EnergyScratch& scratch, const Vec3& place,
                                       std::size_t sample) const;
-  [[nodiscard]] double sample_energy(EnergyScratch& scratch, const FanEdge& edge,
-                                     const Vec3& place) const;
+  [[nodiscard]] double nearest_energy(EnergyScratch& scratch, const FanEdge& edge,
+                                      const Vec3& place) const;
   [[nodiscard]] Vec3 fit(EnergyScratch& scratch, const FanEdge& edge, const Vec3& place) const;
 
   WorkingSurface& surface_;
