@@ -13,7 +13,7 @@ void add_simplify_flags(CLI::App& command, SimplifyFlags& flags) {
   command
       .add_option("--metric", flags.metric,
                   "quadric: distance to planes, fast; energy: distance of samples of the original "
-                  "[Hoppe 1996], slower")
+                  "[Hoppe1996], slower")
       ->check(CLI::IsMember({"quadric", "energy"}))
       ->capture_default_str()
       ->type_name("KIND");

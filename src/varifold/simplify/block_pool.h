@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -15,7 +16,7 @@ template <class T, std::uint32_t kSmallest>
 class BlockPool {
  public:
   [[nodiscard]] std::uint32_t allocate(std::uint32_t entries) {
-    auto& free_list = free_[size_class(entries)];
+    auto& free_list = free_[static_cast<std::size_t>(size_class(entries))];
     if (!free_list.empty()) {
       const std::uint32_t offset = free_list.back();
       free_list.pop_back();
@@ -27,7 +28,7 @@ class BlockPool {
   }
   /// `entries` as they were allocated, or any number of the same capacity.
   void release(std::uint32_t offset, std::uint32_t entries) {
-    free_[size_class(entries)].push_back(offset);
+    free_[static_cast<std::size_t>(size_class(entries))].push_back(offset);
   }
   /// How many entries a block allocated for `entries` has room for.
   [[nodiscard]] static std::uint32_t capacity(std::uint32_t entries) {
@@ -42,7 +43,7 @@ class BlockPool {
     return std::bit_width(std::max(entries, kSmallest) - 1);
   }
   std::vector<T> entries_;
-  std::vector<std::uint32_t> free_[32];
+  std::array<std::vector<std::uint32_t>, 32> free_;
 };
 
 }  // namespace varifold

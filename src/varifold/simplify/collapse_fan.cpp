@@ -31,7 +31,7 @@ float inverse_or_zero(float x) { return x > 0 ? 1 / x : 0.0f; }
 
 void make_fan(const WorkingSurface& surface, const FanEdge& edge, std::vector<FanFace>& fan) {
   fan.clear();
-  const auto [from, onto, moves] = edge;
+  const std::uint32_t from = edge.from, onto = edge.onto;
   // Faces at the edge vanish; the ones of `onto` that share a corner with them are beside them.
   constexpr std::size_t kMaxApexes = 64;
   std::uint32_t apexes[kMaxApexes];
@@ -47,7 +47,7 @@ void make_fan(const WorkingSurface& surface, const FanEdge& edge, std::vector<Fa
   };
   for_each_face(surface, onto, [&](std::uint32_t face, std::uint32_t m, std::uint32_t n) {
     if (m == from || n == from) return;
-    if (moves || is_apex(m) || is_apex(n)) fan.push_back({face, m, n, false, moves});
+    if (edge.moves || is_apex(m) || is_apex(n)) fan.push_back({face, m, n, false, edge.moves});
   });
 }
 

@@ -305,7 +305,8 @@ float SurfaceEnergy::collapse(EnergyScratch& scratch, const Collapse& collapse) 
   }
   samples_.blocks.tidy();
   if (field_ && edge.moves) {
-    const auto& [from, onto] = std::pair{scratch.merge.moved_from, scratch.merge.moved_onto};
+    const auto& from = scratch.merge.moved_from;
+    const auto& onto = scratch.merge.moved_onto;
     const float t = edge_parameter(surface_.points[edge.from].position,
                                    surface_.points[edge.onto].position, collapse.place);
     for (std::size_t i = 0; i < onto.size(); ++i)
