@@ -34,11 +34,13 @@ std::uint32_t triangles_at(const TriangleMesh& mesh, double part) {
   return static_cast<std::uint32_t>(part * mesh.triangle_count());
 }
 
-Row varifold_row(const TriangleMesh& original, Placement placement) {
+Row varifold_row(const TriangleMesh& original, Placement placement, Metric metric) {
   SimplifyOptions options;
   options.placement = placement;
+  options.metric = metric;
   options.measure_error = false;
-  Row row{placement == Placement::kKept ? "Varifold, vertices kept" : "Varifold, vertices moved",
+  Row row{std::string(metric == Metric::kEnergy ? "Varifold by energy" : "Varifold") +
+              (placement == Placement::kKept ? ", vertices kept" : ", vertices moved"),
           {}};
   const auto result = simplify(original, options);
   if (!result) return row;
@@ -71,8 +73,11 @@ std::vector<Row> quoted_rows(const std::string& name) {
 
 void print_rows(const std::string& name) {
   const TriangleMesh original = without_attributes(mesh(name));
-  std::vector<Row> rows = {varifold_row(original, Placement::kKept), meshoptimizer_row(original),
-                           varifold_row(original, Placement::kOptimal)};
+  std::vector<Row> rows = {varifold_row(original, Placement::kKept, Metric::kQuadric),
+                           varifold_row(original, Placement::kKept, Metric::kEnergy),
+                           meshoptimizer_row(original),
+                           varifold_row(original, Placement::kOptimal, Metric::kQuadric),
+                           varifold_row(original, Placement::kOptimal, Metric::kEnergy)};
   for (Row& row : quoted_rows(name)) rows.push_back(std::move(row));
   const std::string stem = name.substr(0, name.find('.'));
   for (const Row& row : rows) {

@@ -10,6 +10,19 @@ void add_simplify_flags(CLI::App& command, SimplifyFlags& flags) {
       ->check(CLI::IsMember({"kept", "optimal"}))
       ->capture_default_str()
       ->type_name("KIND");
+  command
+      .add_option("--metric", flags.metric,
+                  "quadric: distance to planes, fast; energy: distance of samples of the original "
+                  "[Hoppe1996], slower")
+      ->check(CLI::IsMember({"quadric", "energy"}))
+      ->capture_default_str()
+      ->type_name("KIND");
+  command
+      .add_option(
+          "--energy-samples", flags.energy_samples,
+          "With --metric energy: samples for each triangle, beside the vertices (default: 1)")
+      ->check(CLI::Range(0.0f, 1000.0f))
+      ->type_name("S");
   const auto add_weight = [&](const char* name, float& weight, const char* help) {
     command.add_option(name, weight, help)
         ->check(CLI::NonNegativeNumber)
@@ -27,6 +40,12 @@ SimplifyOptions simplify_options(const SimplifyFlags& flags, const CommonOptions
                                  const std::filesystem::path& input) {
   SimplifyOptions options;
   options.placement = flags.placement == "optimal" ? Placement::kOptimal : Placement::kKept;
+  options.metric = flags.metric == "energy" ? Metric::kEnergy : Metric::kQuadric;
+  if (flags.energy_samples) {
+    if (options.metric != Metric::kEnergy)
+      wrong_usage("--energy-samples is for --metric energy: quadrics need no samples");
+    options.energy.samples_per_triangle = *flags.energy_samples;
+  }
   options.attributes = flags.weights;
   options.threads = common.threads;
   options.progress = show_progress(input.filename().string());

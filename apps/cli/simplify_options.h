@@ -6,12 +6,15 @@
 #include <varifold/simplify/simplify.h>
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace varifold::cli {
 
 struct SimplifyFlags {
   std::string placement = "kept";
+  std::string metric = "quadric";
+  std::optional<float> energy_samples;
   AttributeWeights weights;
 };
 void add_simplify_flags(CLI::App& command, SimplifyFlags& flags);

@@ -140,6 +140,32 @@ TEST_F(Commands, SimplifyByRatioAndByError) {
   EXPECT_LE(near["bound_error"], 0.0100001);
 }
 
+TEST_F(Commands, TheMetricDecidesTheOrder) {
+  make_mesh("m.ply");
+  const auto simplified = [&](std::vector<std::string> options) {
+    options.insert(options.begin(),
+                   {"simplify", path("m.ply"), "--ratio", "0.2", "-o", path("s.ply")});
+    (void)run_json(options, {"rms_error"});
+    return bytes_of(path("s.ply"));
+  };
+  const std::string energy = simplified({"--metric", "energy"});
+  EXPECT_EQ(energy, simplified({"--metric", "energy", "--threads", "2"}));
+  EXPECT_NE(energy, simplified({"--metric", "quadric"}));
+  EXPECT_NE(energy, simplified({"--metric", "energy", "--energy-samples", "3"}));
+}
+
+TEST_F(Commands, RefusesMetricsByName) {
+  make_mesh("m.ply");
+  const ToolResult unknown =
+      run_tool({"build", "pm", path("m.ply"), "--metric", "volume", "-o", path("m.vfm")});
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_NE(unknown.err.find("--metric"), std::string::npos) << unknown.err;
+  const ToolResult unused =
+      run_tool({"build", "pm", path("m.ply"), "--energy-samples", "2", "-o", path("m.vfm")});
+  EXPECT_EQ(unused.exit_code, 2);
+  EXPECT_NE(unused.err.find("--metric energy"), std::string::npos) << unused.err;
+}
+
 TEST_F(Commands, SimplifySaysWhyItIsStuck) {
   // Open at every edge: nothing but borders and corners.
   make_mesh("sphere.obj", "seamed_sphere", "2000");
@@ -204,6 +230,8 @@ TEST_F(Commands, BuildOptionsMakeSoundModels) {
   const std::vector<std::vector<std::string>> all{
       {"--position-bits", "14", "--normal-bits", "10", "--texcoord-bits", "12", "--compress"},
       {"--placement", "optimal"},
+      {"--metric", "energy"},
+      {"--metric", "energy", "--placement", "optimal", "--energy-samples", "0.5"},
       {"--no-measure"},
       {"--normal-weight", "0", "--texcoord-weight", "0.1"},
       {"--ignore", "normals,texcoords,materials"}};

@@ -202,6 +202,12 @@ TEST_P(Models, StripsRefuseOptimalPlacement) {
   EXPECT_EQ(std::filesystem::exists(path("o.vfm")), result.exit_code == 0);
 }
 
+TEST_P(Models, AreBuiltByEnergyToo) {
+  (void)make_model("torus", "400");
+  (void)run_json({"build", kind(), path("m.glb"), "--metric", "energy", "-o", path("o.vfm")});
+  EXPECT_EQ(run_json({"check", path("o.vfm")})["sound"], true);
+}
+
 TEST_P(Models, TinyMeshesWorkOrSayWhyNot) {
   std::ofstream(path("one.obj")) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
   EXPECT_EQ(run_json({"build", kind(), path("one.obj"), "-o", path("o.vfm")})["triangles"], 1);

@@ -7,6 +7,7 @@
 #include <varifold/mesh/normals.h>
 #include <cstring>
 #include <limits>
+#include <tuple>
 
 namespace varifold {
 namespace {
@@ -39,11 +40,17 @@ bool same_result(const Simplification& a, const Simplification& b) {
          same_bytes(x.original_triangle, y.original_triangle);
 }
 
-class EveryMesh : public testing::TestWithParam<Placement> {};
+class EveryMesh : public testing::TestWithParam<std::tuple<Placement, Metric>> {
+ protected:
+  static SimplifyOptions options() {
+    SimplifyOptions options;
+    std::tie(options.placement, options.metric) = GetParam();
+    return options;
+  }
+};
 
 TEST_P(EveryMesh, KeepsItsTopologyAtEveryLevel) {
-  SimplifyOptions options;
-  options.placement = GetParam();
+  const SimplifyOptions options = EveryMesh::options();
   for (const NamedMesh& named : test::all_groups()) {
     SCOPED_TRACE(named.name);
     const Simplification result = simplified(named.mesh, options);
@@ -58,10 +65,10 @@ TEST_P(EveryMesh, KeepsItsTopologyAtEveryLevel) {
 TEST_P(EveryMesh, IsTheSameForAnyNumberOfThreads) {
   for (const char* shape : {"planet", "seamed_sphere"}) {
     GeneratorOptions generator;
-    generator.triangles = GetParam() == Placement::kKept ? 80000 : 15000;  // several cells
+    SimplifyOptions options = EveryMesh::options();
+    generator.triangles = options.placement == Placement::kKept ? 80000 : 15000;  // several cells
+    if (options.metric == Metric::kEnergy) generator.triangles = 10000;
     const TriangleMesh mesh = *generate(shape, generator);
-    SimplifyOptions options;
-    options.placement = GetParam();
     options.threads = 1;
     const Simplification one = simplified(mesh, options);
     for (const int threads : {2, 3}) {
@@ -71,8 +78,9 @@ TEST_P(EveryMesh, IsTheSameForAnyNumberOfThreads) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Placements, EveryMesh,
-                         testing::Values(Placement::kKept, Placement::kOptimal));
+INSTANTIATE_TEST_SUITE_P(Orders, EveryMesh,
+                         testing::Combine(testing::Values(Placement::kKept, Placement::kOptimal),
+                                          testing::Values(Metric::kQuadric, Metric::kEnergy)));
 
 TEST(Simplify, KeptLevelsUseVerticesOfTheInput) {
   const TriangleMesh mesh = planet({{.triangles = 2000}});

@@ -37,6 +37,11 @@ class AttributeField {
                  const AttributeWeights& weights);
 
   [[nodiscard]] bool empty() const { return channel_count_ == 0; }
+  [[nodiscard]] int channel_count() const { return channel_count_; }
+
+  /// The weighted values of a wedge, channel by channel; zero beyond channel_count().
+  using Values = std::array<float, kMaxChannels>;
+  [[nodiscard]] Values values(std::uint32_t wedge) const;
 
   /// The face's linear attribute functions enter the quadric of one of its corners: `wedge` with
   /// edges to the two others.
@@ -56,6 +61,8 @@ class AttributeField {
     Vec3 d, onto_d;
   };
   [[nodiscard]] float cost(const Blend& blend) const;
+  /// The values that `onto` would get.
+  [[nodiscard]] Values blended(const Blend& blend) const;
   /// Does so: `onto` gets the values and both quadrics.
   void merge(const Blend& blend);
 
@@ -92,9 +99,6 @@ class AttributeField {
   [[nodiscard]] const Channel* channels(std::uint32_t wedge) const {
     return reinterpret_cast<const Channel*>(&data_[wedge * stride_ + kHeadFloats]);
   }
-  using Values = std::array<float, kMaxChannels>;
-  [[nodiscard]] Values values(std::uint32_t wedge) const;
-  [[nodiscard]] Values blended(const Blend& blend) const;
   [[nodiscard]] float coupling(std::uint32_t wedge, const Values& values, const Vec3& d) const;
   [[nodiscard]] float cost(std::uint32_t wedge, const Values& values, const Vec3& d) const;
   /// Moves the quadric of a wedge, in place, to another origin and other values.

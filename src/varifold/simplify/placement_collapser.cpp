@@ -28,12 +28,10 @@ class PlacementCollapser {
       : surface_(input.surface),
         field_(input.attributes && !input.attributes->empty() ? input.attributes : nullptr),
         options_(options),
-        placement_(placement),
+        recorder_(input.surface, input.mesh, placement),
         merger_(input.surface, scratch_) {
-    gather_attributes(input.mesh);
     bucket_.assign(surface_.point_count(), kNone);
     quadrics_.resize(surface_.point_count());
-    placement_.first.push_back(0);
   }
 
   CollapseLog run() {
@@ -81,13 +79,9 @@ class PlacementCollapser {
     return result;
   }
 
-  // How far along the edge the new place lies: so far do the attributes go.
   [[nodiscard]] float parameter_of(std::uint32_t from, std::uint32_t onto,
                                    const Vec3& position) const {
-    const Vec3 start = surface_.points[from].position;
-    const Vec3 edge = surface_.points[onto].position - start;
-    const float length = glm::dot(edge, edge);
-    return length > 0 ? std::clamp(glm::dot(position - start, edge) / length, 0.0f, 1.0f) : 1.0f;
+    return edge_parameter(surface_.points[from].position, surface_.points[onto].position, position);
   }
 
   [[nodiscard]] AttributeField::Blend blend_of(std::uint32_t from, std::uint32_t onto,
@@ -160,7 +154,8 @@ class PlacementCollapser {
   }
 
   void collapse(std::uint32_t from, std::uint32_t onto, const EdgePlacement& placement) {
-    log_placement(from, onto, placement.position);
+    recorder_.record(onto, placement.position, parameter_of(from, onto, placement.position),
+                     scratch_);
     if (field_)
       for (std::size_t i = 0; i < scratch_.moved_from.size(); ++i)
         field_->merge(blend_of(from, onto, {scratch_.moved_from[i], scratch_.moved_onto[i]},
@@ -187,48 +182,6 @@ class PlacementCollapser {
     for (const RingEntry& entry : around_) queue_best(entry.neighbor);
   }
 
-  // Attributes at the new place are interpolated along the edge, wedge by wedge.
-  void log_placement(std::uint32_t from, std::uint32_t onto, const Vec3& position) {
-    const float t = parameter_of(from, onto, position);
-    const Vec3 in_model = Vec3(DVec3(position) / surface_.scale + surface_.center);
-    const std::uint32_t first = surface_.wedge.first_of(onto);
-    for (std::uint32_t wedge = first; wedge < first + surface_.wedge.count_of(onto); ++wedge) {
-      const auto& moved_onto = scratch_.moved_onto;
-      const auto found = std::find(moved_onto.begin(), moved_onto.end(), wedge);
-      if (found != moved_onto.end())
-        blend_attributes(scratch_.moved_from[found - moved_onto.begin()], wedge, t);
-      push_attributes(wedge, in_model);
-    }
-    placement_.first.push_back(static_cast<std::uint32_t>(placement_.wedge.size()));
-  }
-
-  // The attributes of every wedge; without wedge tables there are none.
-  void gather_attributes(const TriangleMesh& mesh) {
-    for (const std::uint32_t v : surface_.wedge.vertex_of) {
-      if (mesh.has_normals()) attributes_.normals.push_back(mesh.normals[v]);
-      if (mesh.has_texcoords()) attributes_.texcoords.push_back(mesh.texcoords[v]);
-      if (mesh.has_colors()) attributes_.colors.push_back(mesh.colors[v]);
-    }
-  }
-
-  void blend_attributes(std::uint32_t from, std::uint32_t onto, float t) {
-    TriangleMesh& a = attributes_;
-    if (a.has_normals())
-      a.normals[onto] = normalize_or_zero((1 - t) * a.normals[from] + t * a.normals[onto]);
-    if (a.has_texcoords()) a.texcoords[onto] = (1 - t) * a.texcoords[from] + t * a.texcoords[onto];
-    if (a.has_colors())
-      a.colors[onto] = Color((1 - t) * Vec4(a.colors[from]) + t * Vec4(a.colors[onto]) + 0.5f);
-  }
-
-  void push_attributes(std::uint32_t wedge, const Vec3& position) {
-    placement_.wedge.push_back(wedge);
-    TriangleMesh& out = placement_.attributes;
-    out.positions.push_back(position);
-    if (attributes_.has_normals()) out.normals.push_back(attributes_.normals[wedge]);
-    if (attributes_.has_texcoords()) out.texcoords.push_back(attributes_.texcoords[wedge]);
-    if (attributes_.has_colors()) out.colors.push_back(attributes_.colors[wedge]);
-  }
-
   struct Candidate {
     float cost;
     std::uint32_t target;
@@ -238,10 +191,9 @@ class PlacementCollapser {
   WorkingSurface& surface_;
   AttributeField* field_;
   const PlacementOptions& options_;
-  PlacementLog& placement_;
+  PlacementRecorder recorder_;
   MergeScratch scratch_;
   RingMerger merger_;
-  TriangleMesh attributes_;
   std::vector<PointQuadric> quadrics_;
   CollapseLog log_;
   BucketQueue queue_;

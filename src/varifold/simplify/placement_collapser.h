@@ -7,19 +7,12 @@
 
 #include <varifold/base/progress.h>
 #include <varifold/simplify/collapse_rounds.h>
+#include <varifold/simplify/placement_recorder.h>
 #include <varifold/simplify/point_quadric.h>
 #include <varifold/simplify/working_surface.h>
 #include <cstdint>
-#include <vector>
 
 namespace varifold {
-
-/// Where the steps of a log move the vertices that stay.
-struct PlacementLog {
-  std::vector<std::uint32_t> first;  ///< per step: range in the arrays below; one more at the end
-  std::vector<std::uint32_t> wedge;  ///< which wedge; points where there are no wedge tables
-  TriangleMesh attributes;           ///< one vertex an entry, in model units
-};
 
 struct PlacementOptions {
   LegalityOptions legality;

@@ -1,29 +1,8 @@
 #include <varifold/simplify/rings.h>
 
 #include <algorithm>
-#include <bit>
 
 namespace varifold {
-
-int RingPool::size_class(std::uint32_t entries) {
-  return std::bit_width(std::max<std::uint32_t>(entries, 16) - 1);
-}
-
-std::uint32_t RingPool::allocate(std::uint32_t entries) {
-  auto& free_list = free_[size_class(entries)];
-  if (!free_list.empty()) {
-    const std::uint32_t offset = free_list.back();
-    free_list.pop_back();
-    return offset;
-  }
-  const auto offset = static_cast<std::uint32_t>(entries_.size());
-  entries_.resize(offset + (std::size_t{1} << size_class(entries)));
-  return offset;
-}
-
-void RingPool::release(std::uint32_t offset, std::uint32_t entries) {
-  free_[size_class(entries)].push_back(offset);
-}
 
 namespace {
 

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <varifold/base/math.h>
+#include <varifold/simplify/block_pool.h>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -26,19 +27,8 @@ struct LinkEdge {
   std::uint32_t from, to, face;
 };
 
-/// Storage for rings of more than eight entries: blocks whose size is a power of two.
-class RingPool {
- public:
-  [[nodiscard]] std::uint32_t allocate(std::uint32_t entries);
-  void release(std::uint32_t offset, std::uint32_t entries);
-  [[nodiscard]] RingEntry* at(std::uint32_t offset) { return entries_.data() + offset; }
-  [[nodiscard]] std::size_t bytes() const { return entries_.capacity() * sizeof(RingEntry); }
-
- private:
-  static int size_class(std::uint32_t entries);
-  std::vector<RingEntry> entries_;
-  std::vector<std::uint32_t> free_[32];
-};
+/// Storage for rings of more than eight entries.
+using RingPool = BlockPool<RingEntry, 16>;
 
 /// Puts link edges in ring order. Edges that meet head to tail without doubt are joined, all else
 /// begins a new fan. Returns true when the result is one closed fan (no gap). O(k) for small k,

@@ -2,6 +2,7 @@
 
 #include <varifold/simplify/collapse_rounds.h>
 #include <varifold/simplify/deviation.h>
+#include <varifold/simplify/energy_collapser.h>
 #include <varifold/simplify/placement_collapser.h>
 #include <varifold/simplify/sequence_builder.h>
 #include <varifold/simplify/stop_report.h>
@@ -101,6 +102,17 @@ CollapseLog run_placed(const PlacementInput& input, const SimplifyOptions& optio
   return collapse_with_placement(input, placement_options, placement);
 }
 
+CollapseLog run_energy(const EnergyInput& input, const SimplifyOptions& options,
+                       PlacementLog* placement) {
+  EnergyCollapseOptions energy_options;
+  energy_options.energy = options.energy;
+  energy_options.legality = options.legality;
+  energy_options.target_faces = options.target_triangles;
+  energy_options.threads = options.threads;
+  energy_options.progress = options.progress;
+  return std::move(collapse_by_energy(input, energy_options, placement).log);
+}
+
 }  // namespace
 
 Result<Simplification> simplify(const TriangleMesh& mesh, const SimplifyOptions& options) {
@@ -119,13 +131,17 @@ Result<Simplification> simplify(const TriangleMesh& mesh, const SimplifyOptions&
   AttributeField attributes;
   if (surface_options.with_wedges)
     attributes = AttributeField(mesh, surface.wedge.vertex_of, options.attributes);
-  if (!attributes.empty()) add_faces_to_attributes(surface, attributes, options.threads);
+  const bool by_energy = options.metric == Metric::kEnergy;
+  if (!attributes.empty() && !by_energy)
+    add_faces_to_attributes(surface, attributes, options.threads);
   CollapserOptions collapser_options;
   collapser_options.legality = options.legality;
   Collapser collapser(surface, &attributes, collapser_options);
   PlacementLog placement;
-  const CollapseLog log = placed ? run_placed({surface, mesh, &attributes}, options, placement)
-                                 : run_kept(surface, collapser, options);
+  const CollapseLog log =
+      by_energy ? run_energy({surface, mesh, &attributes}, options, placed ? &placement : nullptr)
+      : placed  ? run_placed({surface, mesh, &attributes}, options, placement)
+                : run_kept(surface, collapser, options);
   if (log.cancelled) return fail(ErrorKind::kCancelled, "cancelled while simplifying");
   result.scratch_bytes = surface.bytes() + attributes.bytes() + log.queue_bytes;
 

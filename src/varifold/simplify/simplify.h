@@ -5,6 +5,7 @@
 #include <varifold/base/result.h>
 #include <varifold/simplify/attribute_field.h>
 #include <varifold/simplify/collapse_sequence.h>
+#include <varifold/simplify/energy_samples.h>
 #include <varifold/simplify/legality.h>
 #include <varifold/simplify/working_surface.h>
 #include <array>
@@ -21,8 +22,16 @@ enum class Placement {
   kOptimal,  ///< to the place of least error: smaller errors, one new vertex a step
 };
 
+/// What orders the collapses.
+enum class Metric {
+  kQuadric,  ///< distance to the planes of the faces at hand: fast
+  kEnergy,   ///< change of Hoppe's energy over samples of the original: measured, slower
+};
+
 struct SimplifyOptions {
   Placement placement = Placement::kKept;
+  Metric metric = Metric::kQuadric;
+  EnergyOptions energy;  ///< for Metric::kEnergy
   AttributeWeights attributes;
   LegalityOptions legality;
   /// Stop at the finest level that has at most so many triangles. 0: go on while anything is legal.
@@ -66,8 +75,8 @@ struct Simplification {
   double measure_seconds = 0;
 };
 
-/// Orders half-edge collapses by quadric error, attributes included, until the target or until
-/// nothing legal is left, and numbers the mesh by that order.
+/// Orders edge collapses by quadric error or by energy, attributes included, until the target or
+/// until nothing legal is left, and numbers the mesh by that order.
 ///
 /// The mesh may be open, non-manifold, of several components, with seams: topology is that of
 /// position classes; borders, seams, material borders and non-manifold edges collapse along
