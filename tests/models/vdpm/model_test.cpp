@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <tests/models/vdpm/vdpm_support.h>
 
+#include <varifold/models/common/step_graph.h>
 #include <algorithm>
 #include <numeric>
 
@@ -77,14 +78,27 @@ TEST(VdpmModel, StepsChangeWhatDiffersBetweenLevels) {
   }
 }
 
-TEST(VdpmModel, CentersAreTheirVertices) {
-  for (const NamedVdpm& named : all_vdpms())
+TEST(VdpmModel, CentersAreWhereSplitsPutTheirVertices) {
+  for (const NamedVdpm& named : all_vdpms()) {
+    const CollapseSequence& sequence = named.detailed.sequence;
     for (std::uint32_t k = 0; k < named.model->step_count(); ++k) {
-      const std::uint32_t v = named.detailed.sequence.vertices[k];
+      const std::uint32_t v = sequence.vertices[k];
       ASSERT_EQ(named.model->first_vertex(k), v);
       ASSERT_EQ(named.model->bounds(k).vertex, v);
-      ASSERT_EQ(named.model->center(k), named.detailed.mesh.positions[v]);
+      if (named.model->step_count() > 300) continue;
+      const TriangleMesh finer = mesh_at_level(named.detailed, k + 1);
+      ASSERT_EQ(named.model->center(k), finer.positions[v]) << named.name;
     }
+  }
+}
+
+TEST(VdpmModel, TheBallHoldsEveryLevel) {
+  for (const NamedVdpm& named : all_vdpms()) {
+    const Sphere& ball = named.model->bounding_ball();
+    for (const std::uint32_t level : spread_levels(named.model->finest_level()))
+      for (const Vec3& p : mesh_at_level(named.detailed, level).positions)
+        ASSERT_LE(glm::length(p - ball.center), ball.radius) << named.name;
+  }
 }
 
 // Ranges of materials, found by counting.

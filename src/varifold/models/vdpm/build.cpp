@@ -9,7 +9,7 @@ ViewDependentMesh build_view_dependent_mesh(const DetailedMesh& detailed,
                                             const StepBoundsOptions& options) {
   const StepGraph graph(detailed);
   std::vector<StepBounds> bounds;
-  if (!measure_step_bounds(detailed, graph, watch_parents(graph), options, bounds)) return {};
+  if (!measure_step_bounds(detailed, watch_parents(graph), options, bounds)) return {};
   ViewDependentMeshData data = assemble_steps(detailed, graph);
   data.bounds.reserve(bounds.size());
   for (const StepBounds& b : bounds)

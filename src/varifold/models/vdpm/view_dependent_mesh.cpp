@@ -1,8 +1,21 @@
 #include <varifold/models/vdpm/view_dependent_mesh.h>
 
 #include <varifold/models/common/extract_level.h>
+#include <algorithm>
+#include <utility>
 
 namespace varifold {
+
+ViewDependentMesh::ViewDependentMesh(ViewDependentMeshData data) : data_(std::move(data)) {
+  Box box;
+  for (const auto* positions : {&data_.mesh.positions, &data_.placed.positions})
+    for (const Vec3& p : *positions) box.add(p);
+  if (box.empty()) return;
+  ball_.center = box.center();
+  for (const auto* positions : {&data_.mesh.positions, &data_.placed.positions})
+    for (const Vec3& p : *positions)
+      ball_.radius = std::max(ball_.radius, glm::length(p - ball_.center) * (1 + 1e-6f));
+}
 
 std::size_t ViewDependentMesh::bytes() const {
   const std::size_t words = data_.watch_roots.size() + data_.base_corners.size() +

@@ -13,6 +13,7 @@
 #include <varifold/models/common/level_table.h>
 #include <varifold/models/vdpm/step_bounds.h>
 #include <varifold/models/vdpm/step_records.h>
+#include <varifold/view/sphere.h>
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -51,7 +52,7 @@ class ViewDependentMesh : public LevelQueries<ViewDependentMesh> {
  public:
   ViewDependentMesh() = default;
   /// Everything must be consistent, as from build_view_dependent_mesh().
-  explicit ViewDependentMesh(ViewDependentMeshData data) : data_(std::move(data)) {}
+  explicit ViewDependentMesh(ViewDependentMeshData data);
 
   [[nodiscard]] const ViewDependentMeshData& data() const { return data_; }
   [[nodiscard]] const LevelTable& levels() const { return data_.levels; }
@@ -69,10 +70,14 @@ class ViewDependentMesh : public LevelQueries<ViewDependentMesh> {
     return {first_vertex(step), b.cone,        b.radius, b.nested_radius, b.mu, b.delta,
             b.nested_error,     b.nested_angle};
   }
-  /// Of both balls: where the step's point is at full detail.
+  /// Of both balls: where the split puts the step's point.
   [[nodiscard]] const Vec3& center(std::uint32_t step) const {
-    return data_.mesh.positions[first_vertex(step)];
+    const std::uint32_t vertex = first_vertex(step);
+    const std::uint32_t look = data_.first_look.empty() ? kNone : data_.first_look[vertex];
+    return look == kNone ? data_.mesh.positions[vertex] : data_.placed.positions[look];
   }
+  /// Holds every vertex of every front. O(1).
+  [[nodiscard]] const Sphere& bounding_ball() const { return ball_; }
 
   /// f(coarser step): those that must be split before this one, ascending; nearly always without
   /// those that follow from others.
@@ -118,6 +123,7 @@ class ViewDependentMesh : public LevelQueries<ViewDependentMesh> {
 
  private:
   ViewDependentMeshData data_;
+  Sphere ball_;
 };
 
 }  // namespace varifold

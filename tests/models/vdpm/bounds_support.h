@@ -1,0 +1,67 @@
+// Sequences of all test meshes, and brute-force answers about their steps.
+#pragma once
+
+#include <tests/support/meshes.h>
+#include <varifold/models/vdpm/step_bounds.h>
+#include <varifold/simplify/simplify.h>
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace varifold::test {
+
+struct NamedSequence {
+  std::string name;
+  DetailedMesh detailed;
+};
+
+/// All groups, a planet and a terrain, as far as they have at most so many steps.
+[[nodiscard]] std::vector<NamedSequence> sequences(Placement placement, std::uint32_t most_steps);
+
+/// The coarsest... of the steps that a step requires the finest; kNone for those that require none.
+[[nodiscard]] std::vector<std::uint32_t> finest_required(const DetailedMesh& detailed);
+/// A random smaller step, or kNone, per step.
+[[nodiscard]] std::vector<std::uint32_t> random_parents(std::uint32_t steps, std::uint64_t seed);
+
+[[nodiscard]] std::vector<StepBounds> bounds_of(const DetailedMesh& detailed,
+                                                const StepBoundsOptions& options = {});
+
+/// The corners of the triangles around the point that step k removes and around the vertices that
+/// it moves: at level k + 1, and at level k those that are left of them.
+struct Star {
+  Vec3 center;
+  std::vector<std::array<Vec3, 3>> before, after;
+};
+/// By the definition of levels. O(mesh) each.
+class Stars {
+ public:
+  explicit Stars(const DetailedMesh& detailed);
+  [[nodiscard]] Star of(std::uint32_t step) const;
+
+ private:
+  const DetailedMesh& detailed_;
+  std::vector<std::vector<Vec3>> positions_;  // per level where vertices move, else once
+};
+
+/// The full mesh with the given steps collapsed: every corner its first ancestor that is left, and
+/// no triangle that one of these steps removes. Kept vertices only.
+[[nodiscard]] TriangleMesh surface_without(const DetailedMesh& detailed,
+                                           const std::vector<bool>& is_collapsed);
+/// Random steps, with all that each depends on; some of them far down in one half of the mesh only.
+[[nodiscard]] std::vector<bool> random_front(const DetailedMesh& detailed, std::uint64_t seed);
+
+/// Of every sample, which steps move it and how far it is off then, the finest step first.
+struct Move {
+  std::uint32_t step;
+  Vec3 residual;
+  bool is_ear;
+};
+struct SampleHistory {
+  std::vector<Vec3> positions;
+  std::vector<std::vector<Move>> moves;
+};
+[[nodiscard]] SampleHistory history_of_samples(const DetailedMesh& detailed,
+                                               const StepBoundsOptions& options = {});
+
+}  // namespace varifold::test
