@@ -11,7 +11,7 @@ mkdir -p "$out"
 sources="src/varifold/base/checksum.cpp src/varifold/mesh/triangle_mesh.cpp"
 sources="$sources $(git ls-files 'src/varifold/simplify/sequence_*.cpp' | grep -v sequence_builder)"
 sources="$sources $(git ls-files 'src/varifold/view/*.cpp')"
-sources="$sources $(git ls-files 'src/varifold/models/*/*.cpp' | grep -v -E '([/_]build[a-z_]*|static_removal|step_bounds)\.cpp$')"
+sources="$sources $(git ls-files 'src/varifold/models/*/*.cpp' | grep -v -E '([/_]build[a-z_]*|static_removal|step_bounds|watch_bounds)\.cpp$')"
 sources="$sources tests/runtime/no_exceptions.cpp"
 
 compiler=g++

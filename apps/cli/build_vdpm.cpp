@@ -50,7 +50,7 @@ void add_build_vdpm(CLI::App& build, CommandRunner& runner) {
   const auto options = std::make_shared<BuildCommand>();
   add_build_options(*command, options->build);
   command->add_flag("--vertical", options->vertical,
-                    "Height field: errors are measured along z alone");
+                    "Height field: errors are measured along y, which is up, alone");
   runner.add_common(*command, options->build.common, true);
   runner.attach(*command, options->build.common, [options] { return run_build(*options); });
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <varifold/base/math.h>
+#include <varifold/simplify/closest_on_triangle.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,26 +19,11 @@ struct NearestPoint {
   float order;  ///< less is nearer
 };
 
-/// The point of the triangle (a, b, c) that is nearest to the origin, by the region of the
-/// triangle's plane in which it lies [Ericson2005, 5.1.5]; `order` is the squared distance.
+/// The point of the triangle (a, b, c) that is nearest to the origin; `order` is the squared
+/// distance.
 [[nodiscard]] inline NearestPoint nearest_on_triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const auto at = [](const Vec3& p) { return NearestPoint{p, glm::dot(p, p)}; };
-  const Vec3 ab = b - a, ac = c - a;
-  const float d1 = -glm::dot(ab, a), d2 = -glm::dot(ac, a);
-  if (d1 <= 0 && d2 <= 0) return at(a);
-  const float d3 = -glm::dot(ab, b), d4 = -glm::dot(ac, b);
-  if (d3 >= 0 && d4 <= d3) return at(b);
-  const float vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return at(a + d1 / (d1 - d3) * ab);
-  const float d5 = -glm::dot(ab, c), d6 = -glm::dot(ac, c);
-  if (d6 >= 0 && d5 <= d6) return at(c);
-  const float vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return at(a + d2 / (d2 - d6) * ac);
-  const float va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0)
-    return at(b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b));
-  const float inverse = 1 / (va + vb + vc);
-  return at(a + vb * inverse * ab + vc * inverse * ac);
+  const Vec3 nearest = closest_on_triangle(a, b, c).position;
+  return {nearest, glm::dot(nearest, nearest)};
 }
 
 /// A triangle with the places of its corners.

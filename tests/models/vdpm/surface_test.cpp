@@ -3,6 +3,8 @@
 #include <tests/models/vdpm/vdpm_support.h>
 
 #include <algorithm>
+#include <array>
+#include <set>
 
 namespace varifold::test {
 namespace {
@@ -66,6 +68,42 @@ TEST(VdpmSurface, StepsInAnyOrderGiveTheSurfaceByDefinition) {
       expect_draws(surface, expected, where);
     }
   }
+}
+
+using Places = std::array<float, 9>;
+
+std::vector<Places> places_of_triangles(const TriangleMesh& mesh) {
+  std::vector<Places> all;
+  for (std::size_t slot = 0; slot < mesh.indices.size(); slot += 3) {
+    Places places{};
+    for (std::size_t i = 0; i < 9; ++i)
+      places[i] = mesh.positions[mesh.indices[slot + i / 3]][static_cast<int>(i % 3)];
+    all.push_back(places);
+  }
+  return all;
+}
+
+// Corner by corner, where vertices move as well: steps that touch a triangle are a chain.
+TEST(VdpmSurface, EveryTriangleOfAFrontIsThatOfSomeLevel) {
+  std::size_t looked_at = 0;
+  for (const NamedVdpm& named : all_vdpms()) {
+    const std::uint32_t steps = named.model->step_count();
+    if (steps > 400) continue;
+    std::set<Places> known;
+    for (std::uint32_t level = 0; level <= steps; ++level)
+      for (const Places& places : places_of_triangles(mesh_at_level(named.detailed, level)))
+        known.insert(places);
+    ActiveSurface surface(*named.model);
+    RandomWalk walk(*named.model, 11);
+    for (const double upwards : {0.8, 0.5, 0.4, 0.6, 0.3}) {
+      walk.walk(surface, 2 * steps + 1, upwards);
+      for (const Places& places : places_of_triangles(surface.extract())) {
+        ASSERT_TRUE(known.contains(places)) << named.name;
+        ++looked_at;
+      }
+    }
+  }
+  EXPECT_GT(looked_at, 5000u);
 }
 
 TEST(VdpmSurface, ChangedRangesAreEnough) {

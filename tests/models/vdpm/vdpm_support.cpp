@@ -1,5 +1,6 @@
 #include <tests/models/vdpm/vdpm_support.h>
 
+#include <tests/models/strips/strips_support.h>
 #include <varifold/mesh/weld.h>
 #include <algorithm>
 #include <utility>
@@ -24,6 +25,11 @@ const std::vector<NamedVdpm>& all_vdpms() {
     for (const NamedMesh& named : all_groups())
       for (const Placement placement : {Placement::kKept, Placement::kOptimal})
         made.push_back(make_vdpm(named, placement));
+    for (const std::uint64_t seed : {1u, 2u, 3u})
+      for (const Placement placement : {Placement::kKept, Placement::kOptimal}) {
+        made.push_back(make_vdpm(torn_sphere(seed), placement));
+        made.push_back(make_vdpm(fringed_sheet(seed), placement));
+      }
     return made;
   }();
   return models;

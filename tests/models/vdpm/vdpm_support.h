@@ -21,7 +21,8 @@ struct NamedVdpm {
   std::shared_ptr<const ViewDependentMesh> model;
 };
 
-/// Every test mesh, with kept and with optimal placement; made once.
+/// Every test mesh, and some that are hard to take apart, with kept and with optimal placement;
+/// made once.
 [[nodiscard]] const std::vector<NamedVdpm>& all_vdpms();
 [[nodiscard]] NamedVdpm make_vdpm(const NamedMesh& named, Placement placement);
 

@@ -1,6 +1,8 @@
 #include <varifold/models/vdpm/view_dependent_mesh.h>
 
 #include <varifold/models/common/extract_level.h>
+#include <algorithm>
+#include <utility>
 
 namespace varifold {
 
@@ -8,9 +10,13 @@ ViewDependentMesh::ViewDependentMesh(ViewDependentMeshData data) : data_(std::mo
   base_vertices_ = data_.levels.vertex_count(0);
   one_vertex_a_step_ = data_.mesh.vertex_count() - base_vertices_ == step_count();
   Box box;
-  for (std::uint32_t step = 0; step < step_count(); ++step) box.add(center(step));
-  bounding_ball_ = sphere_around(box);
-  bounding_ball_.radius *= 1.0001f;  // for roundings
+  for (const auto* positions : {&data_.mesh.positions, &data_.placed.positions})
+    for (const Vec3& p : *positions) box.add(p);
+  if (box.empty()) return;
+  ball_.center = box.center();
+  for (const auto* positions : {&data_.mesh.positions, &data_.placed.positions})
+    for (const Vec3& p : *positions)
+      ball_.radius = std::max(ball_.radius, glm::length(p - ball_.center) * (1 + 1e-6f));
 }
 
 std::size_t ViewDependentMesh::bytes() const {

@@ -70,15 +70,14 @@ class ViewDependentMesh : public LevelQueries<ViewDependentMesh> {
     return {first_vertex(step), b.cone,        b.radius, b.nested_radius, b.mu, b.delta,
             b.nested_error,     b.nested_angle};
   }
-  /// Of both balls: where the step's point is when its split makes it.
+  /// Of both balls: where the split puts the step's point.
   [[nodiscard]] const Vec3& center(std::uint32_t step) const {
     const std::uint32_t vertex = first_vertex(step);
-    if (moves_vertices() && data_.first_look[vertex] != kNone)
-      return data_.placed.positions[data_.first_look[vertex]];
-    return data_.mesh.positions[vertex];
+    const std::uint32_t look = data_.first_look.empty() ? kNone : data_.first_look[vertex];
+    return look == kNone ? data_.mesh.positions[vertex] : data_.placed.positions[look];
   }
-  /// Holds the centres of all steps.
-  [[nodiscard]] const Sphere& bounding_ball() const { return bounding_ball_; }
+  /// Holds every vertex of every front. O(1).
+  [[nodiscard]] const Sphere& bounding_ball() const { return ball_; }
 
   /// f(coarser step): those that must be split before this one, ascending; nearly always without
   /// those that follow from others.
@@ -124,7 +123,7 @@ class ViewDependentMesh : public LevelQueries<ViewDependentMesh> {
 
  private:
   ViewDependentMeshData data_;
-  Sphere bounding_ball_;
+  Sphere ball_;
   std::uint32_t base_vertices_ = 0;
   bool one_vertex_a_step_ = false;
 };
