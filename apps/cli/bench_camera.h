@@ -56,9 +56,7 @@ struct CameraFrame {
 /// where in them.
 template <class Model>
 concept NumbersVertices = requires(const InstanceOf<Model>& instance) {
-  {
-    ModelKind<Model>::drawn_vertices(instance)
-    } -> std::convertible_to<std::span<const std::uint32_t>>;
+  { instance.vertices_of_slots() } -> std::same_as<std::vector<std::uint32_t>>;
 };
 
 /// Where each vertex goes when it collapses; kNone for those of the base. O(vertices).
@@ -73,6 +71,9 @@ template <UniformModel Model>
 
 /// Draws a list as a camera sees it; empty where nothing is drawn.
 using DrawFrame = std::function<Result<void>(const DrawList&, const Camera&)>;
+
+/// What part of a budget may stay unused in a frame.
+inline constexpr float kUnusedBudget = 0.004f;
 
 template <class Model>
 class CameraWalk {
@@ -128,9 +129,21 @@ class CameraWalk {
     for (std::size_t i = 0; i < cameras.size(); ++i) {
       (void)adapt(instance, cameras[i]);
       const DrawList list = instance.draw_list();
-      std::span<const std::uint32_t> vertices;
-      if constexpr (NumbersVertices<Model>) vertices = ModelKind<Model>::drawn_vertices(instance);
+      std::vector<std::uint32_t> vertices;
+      if constexpr (NumbersVertices<Model>) vertices = instance.vertices_of_slots();
       frames[i].jumps = jumps.next(list, vertices, cameras[i]);
+    }
+  }
+
+  // A budget need not be used to the last triangle where a model can save the search for that.
+  static FrontStatistics adapt_in_frame(InstanceOf<Model>& instance, const RefineCriteria& criteria,
+                                        const AdaptOptions& options) {
+    if constexpr (requires { instance.adapt(criteria, options, FrontLimits{}); }) {
+      FrontLimits limits;
+      limits.unused_budget = kUnusedBudget;
+      return instance.adapt(criteria, options, limits);
+    } else {
+      return instance.adapt(criteria, options);
     }
   }
 
@@ -141,8 +154,8 @@ class CameraWalk {
       criteria.view.emplace(camera);
       if (test_.no_frustum) criteria.view->outside_weight = 1;
       if (test_.no_orientation) criteria.view->back_weight = 1;
-      const auto front = ModelKind<Model>::adapt(instance, criteria, test_.tolerance(),
-                                                 test_.triangles.value_or(kNone));
+      const FrontStatistics front =
+          adapt_in_frame(instance, criteria, {test_.tolerance(), test_.triangles.value_or(kNone)});
       frame.splits = front.splits;
       frame.collapses = front.collapses;
       frame.forced_splits = front.forced_splits;

@@ -50,4 +50,12 @@ FrontStatistics ViewDependentInstance::adapt(const RefineCriteria& criteria,
   return last;
 }
 
+std::vector<std::uint32_t> ViewDependentInstance::vertices_of_slots() const {
+  const ActiveVertices& active = surface_.vertices();
+  std::vector<std::uint32_t> vertices(active.slots(), kNone);
+  for (std::uint32_t v = 0; v < model_->attributes().vertex_count(); ++v)
+    if (active.is_active(v)) vertices[active.slot(v)] = v;
+  return vertices;
+}
+
 }  // namespace varifold

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 namespace varifold {
 
@@ -50,6 +51,10 @@ class ViewDependentInstance {
   /// Draw-ready buffers; what changed since the last call of this function. Indices name places of
   /// the buffer of active vertices. Valid until the instance changes.
   [[nodiscard]] DrawList draw_list() { return surface_.draw_list(); }
+
+  /// Which vertex of the model each slot of the vertex buffer holds; kNone where it is free.
+  /// O(vertices of the model).
+  [[nodiscard]] std::vector<std::uint32_t> vertices_of_slots() const;
 
   /// Memory of the instance alone.
   [[nodiscard]] std::size_t bytes() const { return surface_.bytes() + front_.bytes(); }
