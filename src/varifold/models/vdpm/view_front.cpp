@@ -87,16 +87,17 @@ FrontStatistics ViewFront::adapt(ActiveSurface& surface, const RefineCriteria& c
 bool ViewFront::begin_frame(const RefineCriteria& criteria, float tolerance) {
   due_.clear();
   due_.swap(waiting_);
-  const bool begins_anew = !has_question_ || question_.differs_in_kind(criteria);
+  const bool begins_anew = !has_question_ || question_.differs_in_kind(criteria, tolerance);
+  const float radius = model_->bounding_ball().radius;
   const ViewQuery before = question_.view();
-  question_.set(criteria, tolerance, odometers_);
+  question_.set(criteria, tolerance, radius, odometers_);
   has_question_ = true;
   bool moved = !due_.empty();
   if (!begins_anew && criteria.view && odometers_.advance(before, question_.view())) moved = true;
   if (begins_anew || odometers_.reach_is_stale() || odometers_.is_worn()) {
     if (odometers_.reach_is_stale()) {
       odometers_.forget();
-      question_.set(criteria, tolerance, odometers_);
+      question_.set(criteria, tolerance, radius, odometers_);
     }
     odometers_.rebase();
     std::fill(keys_.begin(), keys_.end(), kAlways);
