@@ -166,6 +166,7 @@ void ViewFront::sort_due() {
       keep_key(slot, kNever);
       if (dependents_[slot] == 0) leaving_.push_back(steps_[slot]);
     } else if ((flags_[slot] & kExpanded) == 0) {
+      model_->prefetch_bounds(steps_[slot]);
       nested_.push_back(slot);
     } else {
       enter_own(slot);
@@ -174,10 +175,12 @@ void ViewFront::sort_due() {
 }
 
 void ViewFront::enter_own(std::uint32_t slot) {
-  if ((flags_[slot] & kSplit) != 0 && dependents_[slot] != 0)
+  if ((flags_[slot] & kSplit) != 0 && dependents_[slot] != 0) {
     keep_key(slot, kNever);  // until they are gone
-  else
+  } else {
+    model_->prefetch_bounds(steps_[slot]);
     own_.push_back(slot);
+  }
 }
 
 // Is any step of the subtree asked? If so its children are watched from now on.
@@ -209,8 +212,9 @@ void ViewFront::ask_own(Frame& frame) {
     // A key that was found with hysteresis comes no later than it should without.
     keep_key(slot, answers_[i]);
     const bool is_split = (flags_[slot] & kSplit) != 0;
-    if (answers_[i].asked && !is_split) asked_.push_back(steps_[slot]);
-    if (!answers_[i].asked && is_split) leaving_.push_back(steps_[slot]);
+    if (answers_[i].asked == is_split) continue;
+    model_->prefetch_record(steps_[slot]);
+    (is_split ? leaving_ : asked_).push_back(steps_[slot]);
   }
 }
 
