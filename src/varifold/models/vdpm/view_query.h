@@ -59,6 +59,10 @@ inline constexpr float kFar = 1e30f;
 [[nodiscard]] constexpr float greater(float a, float b) { return a > b ? a : b; }
 [[nodiscard]] constexpr float smaller(float a, float b) { return a < b ? a : b; }
 
+[[nodiscard]] constexpr std::int32_t number_of(Mover mover) {
+  return static_cast<std::int32_t>(mover);
+}
+
 /// A view as plain numbers.
 struct Numbers {
   float eye_x = 0, eye_y = 0, eye_z = 0;
@@ -140,12 +144,12 @@ struct LaneAnswer {
   const float until_yes = by_planes ? plane_gap : by_other;
 
   const bool asked = greater(error_gap, greater(plane_gap, facing_gap)) < 0;
-  constexpr auto index = [](Mover mover) { return static_cast<std::int32_t>(mover); };
-  const std::int32_t any = view.tests_frustum != 0 ? index(Mover::kAll) : index(Mover::kEye);
-  const std::int32_t yes = by_distance ? index(Mover::kRecede) : any;
-  const std::int32_t near = by_round ? index(Mover::kApproach) : index(Mover::kEye);
-  const std::int32_t no_planes = by_facing ? index(Mover::kEye) : near;
-  const std::int32_t no = by_planes ? index(Mover::kPlanes) : no_planes;
+  const std::int32_t any =
+      view.tests_frustum != 0 ? number_of(Mover::kAll) : number_of(Mover::kEye);
+  const std::int32_t yes = by_distance ? number_of(Mover::kRecede) : any;
+  const std::int32_t near = by_round ? number_of(Mover::kApproach) : number_of(Mover::kEye);
+  const std::int32_t no_planes = by_facing ? number_of(Mover::kEye) : near;
+  const std::int32_t no = by_planes ? number_of(Mover::kPlanes) : no_planes;
   // What floats may lose on the way to the gaps.
   const float lost = 1e-5f * (distance + region.radius + mu_size);
   return {greater(((asked ? until_no : until_yes) - lost) / (1 + region.keep), 0), asked ? 1 : 0,
