@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -112,6 +113,16 @@ template <UniformModel Model>
   return level.pixels || ((view.eye || !view.path.empty()) && level.triangles);
 }
 
+/// Of a front that was found for a budget: a model may meet it by trials, the splits of which all
+/// count, so that the front is made once more, without.
+template <HasFronts Model>
+[[nodiscard]] std::uint32_t forced_splits(const Model& model, const RefineCriteria& criteria,
+                                          const FrontStatistics& found) {
+  InstanceOf<Model> instance(std::shared_ptr<const Model>(std::shared_ptr<void>(), &model));
+  const FrontStatistics front = instance.adapt(criteria, {found.tolerance});
+  return front.triangles == found.triangles ? front.forced_splits : found.forced_splits;
+}
+
 /// Takes an instance to what is asked for: a level, or, for models whose levels may differ from
 /// place to place, the front that the places and, if `by_view`, the camera ask for.
 template <class Model>
@@ -122,9 +133,11 @@ template <class Model>
   by_view = by_view && camera;
   if constexpr (HasFronts<Model>) {
     if (by_view || !places.empty()) {
-      const FrontStatistics front = instance.adapt(
-          make_criteria(places, by_view ? camera : nullptr),
+      const RefineCriteria criteria = make_criteria(places, by_view ? camera : nullptr);
+      FrontStatistics front = instance.adapt(
+          criteria,
           {static_cast<float>(options.pixels.value_or(0)), options.triangles.value_or(kNone)});
+      if (options.triangles) front.forced_splits = forced_splits(model, criteria, front);
       return {0, front.tolerance, true, front.forced_splits, front.triangles};
     }
   } else if (!places.empty()) {

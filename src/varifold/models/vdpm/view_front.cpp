@@ -146,8 +146,12 @@ void ViewFront::settle(Frame& frame) {
       slots_.clear();
       take_due();
     }
+    // All that are asked are known by now: of those split along with them the others are forced.
+    for (const std::uint32_t step : asked_) flags_[slot_of_[step]] |= kAsked;
     for (const std::uint32_t step : asked_)
       if (!is_split(step)) split(step, frame);
+    for (const std::uint32_t step : asked_)
+      flags_[slot_of_[step]] &= static_cast<std::uint8_t>(~kAsked);
     asked_.clear();
     take_due();
   }
@@ -315,7 +319,6 @@ void ViewFront::split(std::uint32_t step, Frame& frame) {
     return;
   }
   for (const std::uint32_t r : required_) split_one(r, frame);
-  frame.statistics.forced_splits += static_cast<std::uint32_t>(required_.size() - 1);
 }
 
 void ViewFront::split_one(std::uint32_t step, Frame& frame) {
@@ -323,6 +326,7 @@ void ViewFront::split_one(std::uint32_t step, Frame& frame) {
   flags = static_cast<std::uint8_t>((flags & ~kGathered) | kSplit);
   frame.surface.split(step);
   ++frame.statistics.splits;
+  if ((flags & kAsked) == 0) ++frame.statistics.forced_splits;
   model_->for_each_required(step, [&](std::uint32_t required) {
     const std::uint32_t at = slot_of_[required];
     // Only its subtree can still fall due, if that is not expanded.

@@ -72,7 +72,7 @@ class ViewFront {
   [[nodiscard]] std::size_t bytes() const;
 
  private:
-  enum Flag : std::uint8_t { kSplit = 1, kWatched = 2, kExpanded = 4, kGathered = 8 };
+  enum Flag : std::uint8_t { kSplit = 1, kWatched = 2, kExpanded = 4, kGathered = 8, kAsked = 16 };
   struct Frame;
 
   [[nodiscard]] bool begin_frame(const RefineCriteria& criteria, float tolerance);
