@@ -21,7 +21,7 @@ std::vector<bool> front_by_definition(const ViewDependentMesh& model,
                                       const RefineCriteria& criteria, float tolerance) {
   Odometers odometers(model.bounding_ball());
   FrontQuestion question;
-  question.set(criteria, tolerance, odometers);
+  question.set(criteria, tolerance, model.bounding_ball().radius, odometers);
   std::vector<bool> split(model.step_count());
   for (std::uint32_t step = model.step_count(); step-- > 0;) {
     if (!split[step]) split[step] = question.own(model.bounds(step), model.center(step), 0).asked;
@@ -200,9 +200,18 @@ TEST(ViewFront, NeverShowsMoreThanTheBudget) {
     const std::uint32_t full = model.triangle_count(model.finest_level());
     const AdaptOptions options{0.05f, base + (full - base) / 5};
     ViewDependentInstance instance(named.model);
+    RefineCriteria everything;  // what the first frame has to get rid of
+    everything.plane = Plane{Vec3(0, 0, 1), 1e6f};
+    instance.adapt(everything);
+    EXPECT_EQ(instance.triangle_count(), full) << named.name;
     Flight flight(model, 2, 23);
     for (int frame = 0; frame < 10; ++frame) {
-      const RefineCriteria criteria = flight.next();
+      RefineCriteria criteria = flight.next();
+      const Sphere ball = model.bounding_ball();
+      if (frame % 4 == 1) criteria.sphere = Sphere{ball.center, 0.5f * ball.radius};
+      if (frame % 4 == 2) criteria.view->silhouette_weight = 4;
+      if (frame % 4 == 3) criteria.view.reset();
+      if (frame % 8 == 3) criteria.plane = Plane{Vec3(1, 0, 0), -ball.center.x};
       const FrontStatistics statistics = instance.adapt(criteria, options);
       EXPECT_LE(statistics.triangles, std::max(options.max_triangles, base)) << named.name;
       EXPECT_EQ(statistics.triangles, instance.triangle_count());
@@ -316,7 +325,7 @@ TEST(RegionBatch, LanesAnswerAsSingleTestsToTheBit) {
   const std::vector<float> keep(steps.size(), 0.01f);
   for (int frame = 0; frame < 10; ++frame) {
     FrontQuestion question;
-    question.set(flight.next(), 0.5f, odometers);
+    question.set(flight.next(), 0.5f, model.bounding_ball().radius, odometers);
     std::vector<ViewAnswer> own, nested;
     question.own(model, steps, chosen, keep, own);
     question.nested(model, steps, chosen, nested);

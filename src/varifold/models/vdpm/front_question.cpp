@@ -49,11 +49,15 @@ void ask_in_batches(const ViewQuery& view, std::size_t count, const Set& set,
 
 }  // namespace
 
-void FrontQuestion::set(const RefineCriteria& criteria, float tolerance, Odometers& odometers) {
+void FrontQuestion::set(const RefineCriteria& criteria, float tolerance, float mesh,
+                        Odometers& odometers) {
   boxes_.assign(criteria.boxes.begin(), criteria.boxes.end());
   criteria_ = criteria;
   criteria_.boxes = boxes_;
   tolerance_ = tolerance;
+  place_error_ = tolerance < RefineCriteria::kFullDetail
+                     ? -1
+                     : mesh * kLeastGiven * (tolerance / RefineCriteria::kFullDetail);
   is_graded_ = criteria.view && is_graded(*criteria.view);
   if (criteria.view) {
     const float near_distance = criteria.view->scale.near_distance();
@@ -62,7 +66,9 @@ void FrontQuestion::set(const RefineCriteria& criteria, float tolerance, Odomete
   }
 }
 
-bool FrontQuestion::differs_in_kind(const RefineCriteria& criteria) const {
+bool FrontQuestion::differs_in_kind(const RefineCriteria& criteria, float tolerance) const {
+  if (std::max(tolerance, tolerance_) >= RefineCriteria::kFullDetail && tolerance != tolerance_)
+    return true;
   if (is_graded_ || criteria.view.has_value() != criteria_.view.has_value()) return true;
   if (criteria.view) {
     const ViewCriterion &a = *criteria.view, &b = *criteria_.view;
@@ -80,7 +86,8 @@ bool FrontQuestion::differs_in_kind(const RefineCriteria& criteria) const {
 ViewAnswer FrontQuestion::ask(const ViewRegion& region, float keep) const {
   const Sphere ball{region.center, region.radius};
   const float error = std::max(region.mu, region.delta);
-  if (criteria_.is_placed_on(ball, error)) return {true, Mover::kNothing, 0};
+  if (error > place_error_ && criteria_.is_placed_on(ball, error))
+    return {true, Mover::kNothing, 0};
   if (!criteria_.view) return {false, Mover::kNothing, 0};
   if (is_graded_)
     return {criteria_.view->urgency({ball, region.cone, error}) > tolerance_ * (1 - keep),
@@ -97,8 +104,8 @@ ViewAnswer FrontQuestion::nested(const StepBounds& bounds, const Vec3& center) c
   if (!is_graded_) return ask(region, 0);
   const float error = region.mu;
   const Sphere ball{region.center, region.radius};
-  return {criteria_.is_placed_on(ball, error) || criteria_.view->bound(ball, error) > tolerance_,
-          Mover::kAll, 0};
+  const bool placed = error > place_error_ && criteria_.is_placed_on(ball, error);
+  return {placed || criteria_.view->bound(ball, error) > tolerance_, Mover::kAll, 0};
 }
 
 bool FrontQuestion::is_plain() const {

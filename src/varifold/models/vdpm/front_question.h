@@ -19,12 +19,16 @@ namespace varifold {
 /// A RefineCriteria and a tolerance, made ready for many tests.
 class FrontQuestion {
  public:
+  static constexpr float kLeastGiven = 0x1p-26f;
+
   FrontQuestion() = default;
-  /// Takes over `criteria`; allocates where it has more boxes than any before.
-  void set(const RefineCriteria& criteria, float tolerance, Odometers& odometers);
+  /// Takes over `criteria`; allocates where it has more boxes than any before. `mesh` is the radius
+  /// of the mesh: tolerances from RefineCriteria::kFullDetail on let places of full detail have
+  /// errors, too, kLeastGiven of the radius at kFullDetail and growing with the tolerance.
+  void set(const RefineCriteria& criteria, float tolerance, float mesh, Odometers& odometers);
 
   /// Whether the answers may differ from those to `criteria` by more than the odometers can tell.
-  [[nodiscard]] bool differs_in_kind(const RefineCriteria& criteria) const;
+  [[nodiscard]] bool differs_in_kind(const RefineCriteria& criteria, float tolerance) const;
   [[nodiscard]] const ViewQuery& view() const { return view_; }
 
   /// Whether the view or a region asks for a step; for any step below it in the watch tree.
@@ -49,6 +53,7 @@ class FrontQuestion {
   ViewQuery view_;
   bool is_graded_ = false;  // weights between 0 and 1, silhouettes, light: no slack
   float tolerance_ = 0;
+  float place_error_ = -1;  // what places let pass
 };
 
 }  // namespace varifold

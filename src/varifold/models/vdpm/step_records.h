@@ -44,6 +44,10 @@ class StepRecords {
     std::uint32_t required = 0, watched = 0, changed = 0, added = 0;
     bool is_short = true;
   };
+  void prefetch(std::uint32_t step) const {
+    const Group& group = groups_[step >> 3u];
+    __builtin_prefetch(bytes_.data() + group.begin + sum_before(group, step & 7u));
+  }
   [[nodiscard]] View find(std::uint32_t step) const {
     const Group& group = groups_[step >> 3u];
     const std::uint8_t* at = bytes_.data() + group.begin + sum_before(group, step & 7u);

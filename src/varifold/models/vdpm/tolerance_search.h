@@ -7,6 +7,7 @@
 #pragma once
 
 #include <varifold/models/common/front_model.h>
+#include <varifold/view/criteria.h>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -14,17 +15,20 @@
 namespace varifold {
 
 /// Tolerances are steps of a ladder, each 0.27 % above the one before; the lowest is the tolerance
-/// that the user asks for. Remembers the step of the last frame.
+/// that the user asks for. Where views have nothing left to give, the ladder goes on at
+/// RefineCriteria::kFullDetail: from there on places of full detail give way, too
+/// (front_question.h). Remembers the step of the last frame.
 class ToleranceSearch {
  public:
   static constexpr std::int32_t kStepsPerOctave = 256;
-  static constexpr std::int32_t kLastStep = 40 * kStepsPerOctave;
+  static constexpr std::int32_t kLastOfViews = 40 * kStepsPerOctave;
+  static constexpr std::int32_t kLastStep = kLastOfViews + 28 * kStepsPerOctave;
 
-  /// `run(tolerance)` adapts, within the budget, and returns statistics; it fits when nothing
-  /// is refused, and when something else waits the search does, too. Ends with the front of a
-  /// tolerance that fits; of the least one with `band` 0, otherwise of one that leaves at most this
-  /// part of the budget unused, or the lowest. Where none fits, with that of the greatest
-  /// tolerance.
+  /// `run(tolerance)` adapts, within the budget, and returns statistics; it fits when no step
+  /// is refused and the triangles are not too many; when something else waits the search does, too.
+  /// Ends with the front of a tolerance that fits; of the least one with `band` 0, otherwise of one
+  /// that leaves at most this part of the budget unused, or the lowest. Where none fits, with that
+  /// of the greatest tolerance.
   template <class Run>
   FrontStatistics fit(const AdaptOptions& options, float band, const Run& run);
 
@@ -42,10 +46,13 @@ class ToleranceSearch {
 };
 
 inline float ToleranceSearch::tolerance_of(float lowest, std::int32_t step) {
-  double factor = 1, power = 1.0027112750502025;  // 2^(1/256)
-  for (auto bits = static_cast<std::uint32_t>(step); bits != 0; bits >>= 1, power *= power)
+  const bool of_views = step <= kLastOfViews;
+  double factor = of_views ? lowest : RefineCriteria::kFullDetail;
+  double power = 1.0027112750502025;  // 2^(1/256)
+  for (auto bits = static_cast<std::uint32_t>(of_views ? step : step - kLastOfViews); bits != 0;
+       bits >>= 1, power *= power)
     if ((bits & 1u) != 0) factor *= power;
-  return static_cast<float>(lowest * factor);
+  return static_cast<float>(factor);
 }
 
 inline void ToleranceSearch::learn(std::int32_t from, std::int32_t to, std::uint32_t before,
@@ -69,7 +76,7 @@ FrontStatistics ToleranceSearch::fit(const AdaptOptions& options, float band, co
     last = attempt(step);
     last_step = step;
     if (last.waiting > last.refused) return last;  // no more is to be done now
-    if (last.refused > 0) {
+    if (last.refused > 0 || last.triangles > options.max_triangles) {
       too_fine = step;
       step = fits <= kLastStep ? (step + fits) / 2 : std::min(kLastStep, step + 8 * jump);
     } else {

@@ -79,6 +79,13 @@ class ViewDependentMesh : public LevelQueries<ViewDependentMesh> {
   /// Holds every vertex of every front. O(1).
   [[nodiscard]] const Sphere& bounding_ball() const { return ball_; }
 
+  /// Hints that the bounds, or the record, of a step are wanted soon.
+  void prefetch_bounds(std::uint32_t step) const {
+    __builtin_prefetch(&data_.bounds[step]);
+    __builtin_prefetch(&data_.mesh.positions[first_vertex(step)]);
+  }
+  void prefetch_record(std::uint32_t step) const { data_.records.prefetch(step); }
+
   /// f(coarser step): those that must be split before this one, ascending; nearly always without
   /// those that follow from others.
   template <class F>

@@ -92,16 +92,17 @@ FrontStatistics ViewFront::adapt(ActiveSurface& surface, const RefineCriteria& c
 bool ViewFront::begin_frame(const RefineCriteria& criteria, float tolerance) {
   due_.clear();
   due_.swap(waiting_);
-  const bool begins_anew = !has_question_ || question_.differs_in_kind(criteria);
+  const bool begins_anew = !has_question_ || question_.differs_in_kind(criteria, tolerance);
+  const float radius = model_->bounding_ball().radius;
   const ViewQuery before = question_.view();
-  question_.set(criteria, tolerance, odometers_);
+  question_.set(criteria, tolerance, radius, odometers_);
   has_question_ = true;
   bool moved = !due_.empty();
   if (!begins_anew && criteria.view && odometers_.advance(before, question_.view())) moved = true;
   if (begins_anew || odometers_.reach_is_stale() || odometers_.is_worn()) {
     if (odometers_.reach_is_stale()) {
       odometers_.forget();
-      question_.set(criteria, tolerance, odometers_);
+      question_.set(criteria, tolerance, radius, odometers_);
     }
     odometers_.rebase();
     std::fill(keys_.begin(), keys_.end(), kAlways);
@@ -170,6 +171,7 @@ void ViewFront::sort_due() {
       keep_key(slot, kNever);
       if (dependents_[slot] == 0) leaving_.push_back(steps_[slot]);
     } else if ((flags_[slot] & kExpanded) == 0) {
+      model_->prefetch_bounds(steps_[slot]);
       nested_.push_back(slot);
     } else {
       enter_own(slot);
@@ -178,10 +180,12 @@ void ViewFront::sort_due() {
 }
 
 void ViewFront::enter_own(std::uint32_t slot) {
-  if ((flags_[slot] & kSplit) != 0 && dependents_[slot] != 0)
+  if ((flags_[slot] & kSplit) != 0 && dependents_[slot] != 0) {
     keep_key(slot, kNever);  // until they are gone
-  else
+  } else {
+    model_->prefetch_bounds(steps_[slot]);
     own_.push_back(slot);
+  }
 }
 
 // Is any step of the subtree asked? If so its children are watched from now on.
@@ -213,8 +217,9 @@ void ViewFront::ask_own(Frame& frame) {
     // A key that was found with hysteresis comes no later than it should without.
     keep_key(slot, answers_[i]);
     const bool is_split = (flags_[slot] & kSplit) != 0;
-    if (answers_[i].asked && !is_split) asked_.push_back(steps_[slot]);
-    if (!answers_[i].asked && is_split) leaving_.push_back(steps_[slot]);
+    if (answers_[i].asked == is_split) continue;
+    model_->prefetch_record(steps_[slot]);
+    (is_split ? leaving_ : asked_).push_back(steps_[slot]);
   }
 }
 

@@ -2,7 +2,7 @@
 // that goes with what changes.
 //
 // Based on: [Hoppe1997] section 5 (incremental refinement and coarsening, forced splits); the
-//   collapse of a step may wait for others as [ElSana1999] has it.
+//   collapse of a step may wait for others as [ElSanaVarshney1999] has it.
 // Differs: steps depend on each other by the star rule (docs/algorithms/strip_framework.md), so
 // that
 //   fronts fold nowhere; a count of dependents tells when a collapse is allowed, instead of looking

@@ -59,6 +59,10 @@ inline constexpr float kFar = 1e30f;
 [[nodiscard]] constexpr float greater(float a, float b) { return a > b ? a : b; }
 [[nodiscard]] constexpr float smaller(float a, float b) { return a < b ? a : b; }
 
+[[nodiscard]] constexpr std::int32_t number_of(Mover mover) {
+  return static_cast<std::int32_t>(mover);
+}
+
 /// A view as plain numbers.
 struct Numbers {
   float eye_x = 0, eye_y = 0, eye_z = 0;
@@ -121,27 +125,31 @@ struct LaneAnswer {
   const float turned = -(along * region.cosine + aside * region.sine) - region.radius - margin;
   const float facing_gap = view.tests_facing != 0 && region.cosine > 0 ? turned : -kFar;
 
-  // Asked: any of them may come to say no; nearer than nearest the distance is no matter.
-  const float other = smaller(-greater(plane_gap, facing_gap), mu_size - view.nearest);
-  const bool by_distance = (-mu_gap >= -0.5f * error_gap) & (other >= -kRecedeShare * mu_gap);
-  const float until_no =
-      by_distance ? -mu_gap : smaller(-error_gap, -greater(plane_gap, facing_gap));
+  // Asked: any of them may come to say no. Of the odometer of kRecede only the distance may take
+  // all; it goes at least a part as fast as that of kAll, for the others and for what is nearer
+  // than nearest.
+  const float others = -greater(plane_gap, facing_gap);
+  const float until_no_any = smaller(-error_gap, others);
+  const float until_no_far =
+      smaller(-mu_gap, smaller(others, mu_size - view.nearest) / kRecedeShare);
+  const bool by_distance = until_no_far >= 0.5f * until_no_any;
+  const float until_no = by_distance ? until_no_far : until_no_any;
   // Not asked: one that says no is enough; the one that will say so for longest.
-  const bool by_planes = plane_gap > greater(error_gap, facing_gap);
-  const bool by_facing = facing_gap > error_gap;
   const bool is_far = distance - region.radius >= view.nearest;
   const bool by_round = is_far & (round_gap >= 0.5f * error_gap);
+  const bool by_facing = facing_gap > error_gap;
+  const bool by_planes = plane_gap > greater(error_gap, facing_gap);
   const float by_error = by_round ? round_gap : error_gap;
   const float by_other = by_facing ? facing_gap : by_error;
   const float until_yes = by_planes ? plane_gap : by_other;
 
   const bool asked = greater(error_gap, greater(plane_gap, facing_gap)) < 0;
-  constexpr auto index = [](Mover mover) { return static_cast<std::int32_t>(mover); };
-  const std::int32_t any = view.tests_frustum != 0 ? index(Mover::kAll) : index(Mover::kEye);
-  const std::int32_t yes = by_distance ? index(Mover::kRecede) : any;
-  const std::int32_t near = by_round ? index(Mover::kApproach) : index(Mover::kEye);
-  const std::int32_t no_planes = by_facing ? index(Mover::kEye) : near;
-  const std::int32_t no = by_planes ? index(Mover::kPlanes) : no_planes;
+  const std::int32_t any =
+      view.tests_frustum != 0 ? number_of(Mover::kAll) : number_of(Mover::kEye);
+  const std::int32_t yes = by_distance ? number_of(Mover::kRecede) : any;
+  const std::int32_t near = by_round ? number_of(Mover::kApproach) : number_of(Mover::kEye);
+  const std::int32_t no_planes = by_facing ? number_of(Mover::kEye) : near;
+  const std::int32_t no = by_planes ? number_of(Mover::kPlanes) : no_planes;
   // What floats may lose on the way to the gaps.
   const float lost = 1e-5f * (distance + region.radius + mu_size);
   return {greater(((asked ? until_no : until_yes) - lost) / (1 + region.keep), 0), asked ? 1 : 0,
