@@ -55,6 +55,7 @@ Json frame_list(std::span<const CameraFrame> frames, bool is_drawn) {
                     {"splits", frame.splits},
                     {"collapses", frame.collapses},
                     {"forced_splits", frame.forced_splits},
+                    {"moving_vertices", frame.moving},
                     {"tolerance_pixels", frame.tolerance},
                     {"indices_submitted", frame.indices},
                     {"adapt_ms", 1e3 * frame.adapt_seconds},
@@ -102,6 +103,10 @@ void add_fronts(const CameraTest& test, std::span<const CameraFrame> frames, Jso
   result["vertices_mean"] = sum_of(frames, [](const auto& f) { return f.vertices; }) / count;
   const auto forced = [](const CameraFrame& f) { return f.forced_splits; };
   result["forced_splits_mean"] = sum_of(frames, forced) / count;
+  const auto moving = [](const CameraFrame& f) { return f.moving; };
+  result["morph_frames"] = test.morph_frames;
+  result["moving_vertices_mean"] = sum_of(frames, moving) / count;
+  result["moving_vertices_max"] = static_cast<std::uint64_t>(greatest(frames, moving));
   const auto tolerance = [](const CameraFrame& f) { return f.tolerance; };
   result["tolerance_pixels_mean"] = sum_of(frames, tolerance) / count;
   result["tolerance_pixels_max"] = greatest(frames, tolerance);
@@ -141,6 +146,12 @@ void add_camera_test_options(CLI::App& command, CameraTest& test) {
   command.add_option("--pixels", test.pixels, "At most this error in pixels (default 1)")
       ->check(CLI::NonNegativeNumber)
       ->type_name("T")
+      ->group(group);
+  command
+      .add_option("--morph", test.morph_frames,
+                  "Splits and collapses take so many frames (view-dependent meshes)")
+      ->check(CLI::Range(0u, 255u))
+      ->type_name("N")
       ->group(group);
   command.add_option("--triangles", test.triangles, "At most so many triangles a frame")
       ->check(CLI::Range(1u, kNone - 1))

@@ -24,6 +24,7 @@ struct CameraTest {
   std::optional<double> pixels;
   std::optional<std::uint32_t> triangles;
   std::optional<PictureSize> size;
+  std::uint32_t morph_frames = 0;
   bool per_frame = false;
   bool no_frustum = false, no_orientation = false;
 
@@ -41,6 +42,7 @@ void add_camera_test_options(CLI::App& command, CameraTest& test);
 struct CameraFrame {
   double adapt_seconds = 0, list_seconds = 0, draw_seconds = 0;
   std::uint32_t splits = 0, collapses = 0, forced_splits = 0, vertices = 0, triangles = 0;
+  std::uint32_t moving = 0;  // vertices that morphs move
   float tolerance = 0;
   std::uint64_t indices = 0;
   FrameJumps::Jumps jumps;
@@ -136,11 +138,12 @@ class CameraWalk {
   }
 
   // A budget need not be used to the last triangle where a model can save the search for that.
-  static FrontStatistics adapt_in_frame(InstanceOf<Model>& instance, const RefineCriteria& criteria,
-                                        const AdaptOptions& options) {
+  FrontStatistics adapt_in_frame(InstanceOf<Model>& instance, const RefineCriteria& criteria,
+                                 const AdaptOptions& options) const {
     if constexpr (requires { instance.adapt(criteria, options, FrontLimits{}); }) {
       FrontLimits limits;
       limits.unused_budget = kUnusedBudget;
+      limits.morph_frames = test_.morph_frames;
       return instance.adapt(criteria, options, limits);
     } else {
       return instance.adapt(criteria, options);
@@ -162,6 +165,8 @@ class CameraWalk {
       frame.vertices = front.vertices;
       frame.triangles = front.triangles;
       frame.tolerance = front.tolerance;
+      if constexpr (requires { instance.moving_vertices(); })
+        frame.moving = instance.moving_vertices();
     } else {
       // One level for all: what the nearest point of the bounds needs.
       const PixelScale scale(camera);

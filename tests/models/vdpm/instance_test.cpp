@@ -62,5 +62,35 @@ TEST(VdpmInstance, FramesAllocateNothingWhereTheyHaveBeen) {
   }
 }
 
+// Whatever the front still finds room for, morphs need no more.
+TEST(VdpmInstance, MorphsAllocateNothingWhereTheyHaveBeen) {
+  const NamedVdpm named = make_vdpm({"sphere", icosphere(5000)}, Placement::kKept);
+  const Sphere ball = named.model->bounding_ball();
+  ViewDependentInstance instances[2] = {ViewDependentInstance(named.model),
+                                        ViewDependentInstance(named.model)};
+  for (int round = 0; round < 6; ++round) {
+    std::size_t made[2] = {0, 0};
+    for (int with = 0; with < 2; ++with) {
+      FrontLimits limits;
+      limits.morph_frames = with == 0 ? 0 : 15;
+      const std::size_t before = allocations;
+      for (int frame = 0; frame < 100; ++frame) {
+        const float angle = 0.0628f * static_cast<float>(frame);
+        Camera camera;
+        camera.eye = ball.center + 3 * ball.radius * Vec3(std::cos(angle), 0.4f, std::sin(angle));
+        camera.target = ball.center;
+        RefineCriteria criteria;
+        criteria.view.emplace(camera);
+        instances[with].adapt(criteria, {0.5f, kNone}, limits);
+        (void)instances[with].draw_list();
+      }
+      made[with] = allocations - before;
+    }
+    if (round >= 2) {
+      EXPECT_EQ(made[1], made[0]) << round;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace varifold::test

@@ -34,6 +34,16 @@ void ActiveSurface::add_vertex(std::uint32_t vertex) {
 }
 
 void ActiveSurface::split(std::uint32_t step) {
+  split_connectivity(step);
+  if (model_->moves_vertices()) write_finer(step);
+}
+
+void ActiveSurface::collapse(std::uint32_t step) {
+  collapse_connectivity(step);
+  if (model_->moves_vertices()) write_coarser(step);
+}
+
+void ActiveSurface::split_connectivity(std::uint32_t step) {
   const LevelTable& levels = model_->levels();
   const StepRecords& records = model_->data().records;
   const std::uint32_t vertex = levels.vertex_count(step);
@@ -50,10 +60,9 @@ void ActiveSurface::split(std::uint32_t step) {
                                           {vertices_.slot(corners[0]), vertices_.slot(corners[1]),
                                            vertices_.slot(corners[2])});
                          });
-  if (model_->moves_vertices()) write_finer(step);
 }
 
-void ActiveSurface::collapse(std::uint32_t step) {
+void ActiveSurface::collapse_connectivity(std::uint32_t step) {
   const LevelTable& levels = model_->levels();
   const StepRecords& records = model_->data().records;
   const std::uint32_t vertex = levels.vertex_count(step);
@@ -68,7 +77,6 @@ void ActiveSurface::collapse(std::uint32_t step) {
                          });
   const std::uint32_t vertices = record.is_short ? 1 : levels.step(step).vertices;
   for (std::uint32_t i = vertices; i-- > 0;) vertices_.remove(vertex + i);
-  if (model_->moves_vertices()) write_coarser(step);
 }
 
 // The vertices that stay, as they were before the step's collapse.

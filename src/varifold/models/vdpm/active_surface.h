@@ -28,6 +28,11 @@ class ActiveSurface {
   /// O(triangles around the step's point).
   void split(std::uint32_t step);
   void collapse(std::uint32_t step);
+  /// The same, but the vertices that stay keep their attributes where placement moves them: for
+  /// whoever moves them otherwise.
+  void split_connectivity(std::uint32_t step);
+  void collapse_connectivity(std::uint32_t step);
+  [[nodiscard]] ActiveVertices& vertices_to_move() { return vertices_; }
   /// Room for so many.
   void reserve(std::uint32_t vertices, std::uint32_t triangles);
 

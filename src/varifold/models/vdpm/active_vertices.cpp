@@ -1,6 +1,7 @@
 #include <varifold/models/vdpm/active_vertices.h>
 
 #include <varifold/models/common/extract_level.h>
+#include <cmath>
 
 namespace varifold {
 
@@ -35,6 +36,27 @@ void ActiveVertices::write_more(std::uint32_t slot, const TriangleMesh& from, st
   if (has_normals_) buffer_.normals[slot] = from.normals[index];
   if (has_texcoords_) buffer_.texcoords[slot] = from.texcoords[index];
   if (has_colors_) buffer_.colors[slot] = from.colors[index];
+}
+
+void ActiveVertices::approach_more(std::uint32_t slot, const TriangleMesh& goal,
+                                   std::uint32_t index, float part) {
+  if (has_normals_) {
+    Vec3& normal = buffer_.normals[slot];
+    const Vec3 sum = normal + part * (goal.normals[index] - normal);
+    const float square = glm::dot(sum, sum);
+    // Opposite normals meet at zero, where there is no direction: it stays until the end is nearer.
+    if (square > 1e-12f && std::isfinite(square)) normal = sum / std::sqrt(square);
+  }
+  if (has_texcoords_) {
+    Vec2& texcoord = buffer_.texcoords[slot];
+    texcoord += part * goal.texcoords[index] - part * texcoord;
+  }
+  if (!has_colors_) return;
+  Color& color = buffer_.colors[slot];
+  for (int i = 0; i < 4; ++i) {
+    const auto way = static_cast<float>(goal.colors[index][i] - color[i]);
+    color[i] = static_cast<std::uint8_t>(color[i] + std::lround(part * way));
+  }
 }
 
 std::size_t ActiveVertices::bytes() const {

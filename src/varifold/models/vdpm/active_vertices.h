@@ -54,6 +54,21 @@ class ActiveVertices {
     dirty_.mark(slot);
   }
 
+  /// Moves a slot toward the attributes `index` of `goal`, by the n-th part of what is left; with
+  /// n = 1 it has them, byte for byte. Normals keep a length of 1. `goal` may be buffer().
+  void approach(std::uint32_t slot, const TriangleMesh& goal, std::uint32_t index,
+                std::uint32_t n) {
+    if (n == 1) {
+      write(slot, goal, index);
+      return;
+    }
+    const float part = 1 / static_cast<float>(n);
+    Vec3& position = buffer_.positions[slot];
+    position += part * goal.positions[index] - part * position;  // no overflow
+    if (has_more_) approach_more(slot, goal, index, part);
+    dirty_.mark(slot);
+  }
+
   void reserve(std::uint32_t vertices);
   /// The attributes, by slot; no indices.
   [[nodiscard]] const TriangleMesh& buffer() const { return buffer_; }
@@ -64,6 +79,7 @@ class ActiveVertices {
  private:
   std::uint32_t new_slot();
   void write_more(std::uint32_t slot, const TriangleMesh& from, std::uint32_t index);
+  void approach_more(std::uint32_t slot, const TriangleMesh& goal, std::uint32_t index, float part);
 
   TriangleMesh buffer_;
   bool has_normals_ = false, has_texcoords_ = false, has_colors_ = false, has_more_ = false;

@@ -6,11 +6,12 @@
 namespace varifold {
 
 ViewDependentInstance::ViewDependentInstance(std::shared_ptr<const ViewDependentMesh> model)
-    : model_(std::move(model)), surface_(*model_), front_(*model_) {}
+    : model_(std::move(model)), surface_(*model_), front_(*model_), morphs_(*model_) {}
 
 void ViewDependentInstance::go_to_level(std::uint32_t level) {
   const std::uint32_t finest = model_->finest_level();
   level = std::min(level, finest);
+  morphs_.finish(surface_);
   const bool from_front = level_ == kNone;  // any step may have to change
   const std::uint32_t first = from_front ? 0 : std::min(level, level_);
   const std::uint32_t end = from_front ? finest : std::max(level, level_);
@@ -30,13 +31,30 @@ FrontStatistics ViewDependentInstance::adapt(const RefineCriteria& criteria,
   if (front_is_stale_) front_.set_level(level_);
   front_is_stale_ = false;
   level_ = kNone;
-  if (options.max_triangles == kNone) return front_.adapt(surface_, criteria, options, limits);
+  const bool has_morphs = limits.morph_frames > 1 || morphs_.moving_vertices() > 0;
+  FrontGeomorphs* const morphs = has_morphs ? &morphs_ : nullptr;
+  if (has_morphs) morphs_.begin_frame(surface_);
   AdaptOptions budget = options;
   budget.max_triangles = std::max(options.max_triangles, model_->triangle_count(0));
+  FrontStatistics statistics = options.max_triangles == kNone
+                                   ? front_.adapt(surface_, criteria, options, limits, morphs)
+                                   : fit_budget(criteria, budget, limits, morphs);
+  if (has_morphs) {
+    morphs_.advance(surface_, limits.morph_frames, budget.max_triangles);
+    statistics.vertices = surface_.vertex_count();
+    statistics.triangles = surface_.triangle_count();
+  }
+  return statistics;
+}
+
+FrontStatistics ViewDependentInstance::fit_budget(const RefineCriteria& criteria,
+                                                  const AdaptOptions& budget,
+                                                  const FrontLimits& limits,
+                                                  FrontGeomorphs* morphs) {
   FrontStatistics sum;
   FrontStatistics last = search_.fit(budget, limits.unused_budget, [&](float tolerance) {
     const FrontStatistics now =
-        front_.adapt(surface_, criteria, {tolerance, budget.max_triangles}, limits);
+        front_.adapt(surface_, criteria, {tolerance, budget.max_triangles}, limits, morphs);
     sum.splits += now.splits;
     sum.collapses += now.collapses;
     sum.forced_splits += now.forced_splits;

@@ -3,6 +3,7 @@
 
 #include <varifold/models/common/front_model.h>
 #include <varifold/models/vdpm/active_surface.h>
+#include <varifold/models/vdpm/geomorph.h>
 #include <varifold/models/vdpm/tolerance_search.h>
 #include <varifold/models/vdpm/view_dependent_mesh.h>
 #include <varifold/models/vdpm/view_front.h>
@@ -31,8 +32,11 @@ class ViewDependentInstance {
   [[nodiscard]] std::uint32_t level() const { return level_; }
   [[nodiscard]] std::uint32_t vertex_count() const { return surface_.vertex_count(); }
   [[nodiscard]] std::uint32_t triangle_count() const { return surface_.triangle_count(); }
+  /// Where morphs are on their way: of what is drawn, as are the counts.
   [[nodiscard]] bool is_split(std::uint32_t step) const { return surface_.is_split(step); }
   [[nodiscard]] const ActiveSurface& surface() const { return surface_; }
+  /// Vertices on their way to their places or to their targets.
+  [[nodiscard]] std::uint32_t moving_vertices() const { return morphs_.moving_vertices(); }
 
   /// To a level, at most the model's finest, from any level or front. O(steps between); from a
   /// front, O(steps). Allocates only where buffers never had the size.
@@ -44,7 +48,8 @@ class ViewDependentInstance {
   FrontStatistics adapt(const RefineCriteria& criteria, const AdaptOptions& options = {}) {
     return adapt(criteria, options, {});
   }
-  /// The same with limits for a frame; with these the front may lag behind.
+  /// The same with limits for a frame; with these the front may lag behind. With morph_frames each
+  /// call is a frame of all morphs, also where the camera rests.
   FrontStatistics adapt(const RefineCriteria& criteria, const AdaptOptions& options,
                         const FrontLimits& limits);
 
@@ -57,16 +62,23 @@ class ViewDependentInstance {
   [[nodiscard]] std::vector<std::uint32_t> vertices_of_slots() const;
 
   /// Memory of the instance alone.
-  [[nodiscard]] std::size_t bytes() const { return surface_.bytes() + front_.bytes(); }
+  [[nodiscard]] std::size_t bytes() const {
+    return surface_.bytes() + front_.bytes() + morphs_.bytes();
+  }
 
   /// A copy as a mesh of its own, with materials: vertices and triangles in the order of the model.
   /// O(size of the model).
   [[nodiscard]] TriangleMesh extract() const { return surface_.extract(); }
 
  private:
+  [[nodiscard]] FrontStatistics fit_budget(const RefineCriteria& criteria,
+                                           const AdaptOptions& options, const FrontLimits& limits,
+                                           FrontGeomorphs* morphs);
+
   std::shared_ptr<const ViewDependentMesh> model_;
   ActiveSurface surface_;
   ViewFront front_;
+  FrontGeomorphs morphs_;
   ToleranceSearch search_;
   std::uint32_t level_ = 0;      // kNone where a front was asked for
   bool front_is_stale_ = false;  // it knows nothing of the level

@@ -18,11 +18,15 @@ constexpr std::uint32_t kTendedPerFrame = 8;
 // What one call of adapt() carries along.
 struct ViewFront::Frame {
   ActiveSurface& surface;
+  FrontGeomorphs* morphs;  // or null
   const FrontLimits& limits;
   std::uint32_t max_triangles;
   FrontStatistics statistics;
   std::chrono::steady_clock::time_point end;
 
+  [[nodiscard]] std::uint32_t triangle_count() const {
+    return morphs != nullptr ? morphs->triangle_count() : surface.triangle_count();
+  }
   // Whether another change is within the limits.
   [[nodiscard]] bool may_change() {
     const std::uint32_t changes = statistics.splits + statistics.collapses;
@@ -66,8 +70,9 @@ void ViewFront::remove_slot(std::uint32_t slot) {
 }
 
 FrontStatistics ViewFront::adapt(ActiveSurface& surface, const RefineCriteria& criteria,
-                                 const AdaptOptions& options, const FrontLimits& limits) {
-  Frame frame{surface, limits, options.max_triangles, {}, {}};
+                                 const AdaptOptions& options, const FrontLimits& limits,
+                                 FrontGeomorphs* morphs) {
+  Frame frame{surface, morphs, limits, options.max_triangles, {}, {}};
   if (limits.max_microseconds > 0)
     frame.end = std::chrono::steady_clock::now() +
                 std::chrono::nanoseconds(static_cast<std::int64_t>(limits.max_microseconds * 1e3f));
@@ -76,7 +81,7 @@ FrontStatistics ViewFront::adapt(ActiveSurface& surface, const RefineCriteria& c
     settle(frame);
   }
   frame.statistics.vertices = surface.vertex_count();
-  frame.statistics.triangles = surface.triangle_count();
+  frame.statistics.triangles = frame.triangle_count();
   frame.statistics.tolerance = options.tolerance;
   frame.statistics.waiting = static_cast<std::uint32_t>(waiting_.size());
   return frame.statistics;
@@ -310,8 +315,8 @@ void ViewFront::let_go() {
 
 void ViewFront::split(std::uint32_t step, Frame& frame) {
   const std::uint32_t triangles = gather_required(step);
-  const bool fits = triangles <= frame.max_triangles &&
-                    frame.surface.triangle_count() <= frame.max_triangles - triangles;
+  const bool fits =
+      triangles <= frame.max_triangles && frame.triangle_count() <= frame.max_triangles - triangles;
   if (!fits || !frame.may_change()) {
     let_go();
     if (!fits) ++frame.statistics.refused;
@@ -324,7 +329,10 @@ void ViewFront::split(std::uint32_t step, Frame& frame) {
 void ViewFront::split_one(std::uint32_t step, Frame& frame) {
   std::uint8_t& flags = flags_[slot_of_[step]];
   flags = static_cast<std::uint8_t>((flags & ~kGathered) | kSplit);
-  frame.surface.split(step);
+  if (frame.morphs != nullptr)
+    frame.morphs->split(step);
+  else
+    frame.surface.split(step);
   ++frame.statistics.splits;
   if ((flags & kAsked) == 0) ++frame.statistics.forced_splits;
   model_->for_each_required(step, [&](std::uint32_t required) {
@@ -341,7 +349,10 @@ void ViewFront::collapse(std::uint32_t step, Frame& frame) {
     waiting_.push_back(step);
     return;
   }
-  frame.surface.collapse(step);
+  if (frame.morphs != nullptr)
+    frame.morphs->collapse(step);
+  else
+    frame.surface.collapse(step);
   ++frame.statistics.collapses;
   const std::uint32_t slot = slot_of_[step];
   flags_[slot] &= static_cast<std::uint8_t>(~kSplit);

@@ -12,6 +12,7 @@
 #include <varifold/models/common/front_model.h>
 #include <varifold/models/vdpm/active_surface.h>
 #include <varifold/models/vdpm/front_question.h>
+#include <varifold/models/vdpm/geomorph.h>
 #include <varifold/models/vdpm/odometers.h>
 #include <varifold/models/vdpm/view_dependent_mesh.h>
 #include <chrono>
@@ -38,6 +39,8 @@ struct FrontLimits {
   /// With a budget: which part of it may stay unused, so that the tolerance need not be searched in
   /// each frame. With 0 it is the least of tolerance_search.h that fits.
   float unused_budget = 0;
+  /// Splits and collapses take so many frames (geomorph.h); up to 1: they are done at once.
+  std::uint32_t morph_frames = 0;
   FrontSchedule schedule = FrontSchedule::kDue;
   float amortized_part = 0.25f;  ///< of the front, for kAmortized
 };
@@ -56,8 +59,10 @@ class ViewFront {
   /// triangles at any time; steps that would be more wait, see FrontStatistics::waiting.
   /// O(slots) with a small constant, O(1) expected for each step looked at and each change; O(1)
   /// when nothing moved. Allocates only where the front is greater than ever before.
+  /// With `morphs` these are told all changes, in place of the surface.
   FrontStatistics adapt(ActiveSurface& surface, const RefineCriteria& criteria,
-                        const AdaptOptions& options, const FrontLimits& limits);
+                        const AdaptOptions& options, const FrontLimits& limits,
+                        FrontGeomorphs* morphs = nullptr);
 
   [[nodiscard]] bool is_split(std::uint32_t step) const {
     const std::uint32_t slot = slot_of_[step];

@@ -1,0 +1,192 @@
+#include <varifold/models/vdpm/geomorph.h>
+
+#include <algorithm>
+#include <array>
+
+namespace varifold {
+
+void FrontGeomorphs::advance(ActiveSurface& surface, std::uint32_t frames,
+                             std::uint32_t max_triangles) {
+  set_frames(std::clamp(frames, 1u, kMostFrames));
+  if (!requests_.empty()) take_requests(surface);
+  if (morphs_.empty()) return;
+  if (max_triangles != kNone) keep_budget(surface, max_triangles);
+  move(surface);
+}
+
+// Rounding up keeps the order of phases, and what is on its way on its way.
+void FrontGeomorphs::set_frames(std::uint32_t frames) {
+  if (frames == frames_) return;
+  const auto scaled = [&](std::uint8_t count) {
+    return static_cast<std::uint8_t>((count * frames + frames_ - 1) / frames_);
+  };
+  for (Morph& morph : morphs_) {
+    morph.phase = scaled(morph.phase);
+    morph.left = scaled(morph.left);
+  }
+  frames_ = frames;
+}
+
+// Steps that changed an even number of times are as they were. Which way the others go is what the
+// surface and the morphs are not yet.
+void FrontGeomorphs::take_requests(const ActiveSurface& surface) {
+  std::sort(requests_.begin(), requests_.end());
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < requests_.size();) {
+    std::size_t end = i + 1;
+    while (end < requests_.size() && requests_[end] == requests_[i]) ++end;
+    if ((end - i) % 2 == 1) requests_[count++] = requests_[i];
+    i = end;
+  }
+  requests_.resize(count);
+  events_.clear();
+  // Whether a step of the surface goes already is known from its first vertex.
+  arrived_.clear();  // here: those that the front splits
+  auto morph = morphs_.begin();
+  std::size_t collapses = 0;
+  for (const std::uint32_t step : requests_) {
+    const std::uint32_t vertex = model_->first_vertex(step);
+    morph = std::lower_bound(morph, morphs_.end(), vertex, is_before);
+    const bool goes = morph != morphs_.end() && morph->vertex == vertex && morph->goes;
+    if (!surface.is_split(step) || goes)
+      arrived_.push_back(step);
+    else
+      requests_[collapses++] = step;
+  }
+  // As the rule has it: attributes are those of the last to write them.
+  for (std::size_t i = collapses; i-- > 0;) add_events(requests_[i], false);
+  for (const std::uint32_t step : arrived_) add_events(step, true);
+  requests_.clear();
+  std::sort(events_.begin(), events_.end(), [](const Event& a, const Event& b) {
+    return a.vertex != b.vertex ? a.vertex < b.vertex : a.order < b.order;
+  });
+  merge_events(surface);
+}
+
+void FrontGeomorphs::add_events(std::uint32_t step, bool is_split) {
+  const ViewDependentMeshData& data = model_->data();
+  const std::uint32_t first = model_->first_vertex(step);
+  const std::uint32_t count = model_->levels().step(step).vertices;
+  const auto add = [&](std::uint32_t vertex, std::uint32_t look, Change change) {
+    events_.push_back({vertex, static_cast<std::uint32_t>(events_.size()), step, look, change});
+  };
+  for (std::uint32_t v = first; v < first + count; ++v) {
+    const std::uint32_t look = data.first_look.empty() ? kNone : data.first_look[v];
+    add(v, look, is_split ? Change::kAppears : Change::kGoes);
+  }
+  if (!model_->moves_vertices()) return;
+  for (std::uint32_t j = data.first_placed[step]; j < data.first_placed[step + 1]; ++j)
+    add(data.placed_vertex[j], is_split ? data.finer[j] : j, Change::kMoves);
+}
+
+// Merges from the end, where there is room for those that are new.
+void FrontGeomorphs::merge_events(const ActiveSurface& surface) {
+  const ActiveVertices& vertices = surface.vertices();
+  std::size_t from = morphs_.size(), to = from + count_new();
+  reserve_for(morphs_, to);
+  morphs_.resize(to);
+  for (std::size_t end = events_.size(); end > 0;) {
+    const std::uint32_t vertex = events_[end - 1].vertex;
+    std::size_t first = end - 1;
+    while (first > 0 && events_[first - 1].vertex == vertex) --first;
+    while (from > 0 && morphs_[from - 1].vertex > vertex) morphs_[--to] = morphs_[--from];
+    Morph changed{};
+    if (from > 0 && morphs_[from - 1].vertex == vertex) {
+      changed = morphs_[--from];
+    } else {
+      const bool is_there = vertices.is_active(vertex);
+      changed.vertex = vertex;
+      changed.slot = is_there ? vertices.slot(vertex) : kNone;
+      changed.phase = is_there ? static_cast<std::uint8_t>(frames_) : std::uint8_t{0};
+    }
+    for (std::size_t i = first; i < end; ++i) apply(events_[i], vertices, changed);
+    morphs_[--to] = changed;
+    end = first;
+  }
+}
+
+// How many vertices of the events do not move yet.
+std::size_t FrontGeomorphs::count_new() const {
+  std::size_t count = 0;
+  auto morph = morphs_.begin();
+  for (std::size_t i = 0; i < events_.size(); ++i) {
+    const std::uint32_t vertex = events_[i].vertex;
+    if (i > 0 && events_[i - 1].vertex == vertex) continue;
+    morph = std::lower_bound(morph, morphs_.end(), vertex, is_before);
+    if (morph == morphs_.end() || morph->vertex != vertex) ++count;
+  }
+  return count;
+}
+
+void FrontGeomorphs::apply(const Event& event, const ActiveVertices& vertices, Morph& morph) const {
+  switch (event.change) {
+    case Change::kAppears:
+      morph.step = event.step;
+      morph.goes = false;
+      morph.goal = event.look;
+      // Other numbers of frames may have brought one on its way out back to the last phase.
+      morph.left = static_cast<std::uint8_t>(std::max(1u, frames_ - morph.phase));
+      break;
+    case Change::kGoes:
+      morph.step = event.step;
+      morph.goes = true;
+      morph.goal = vertices.slot(model_->levels().target(morph.vertex));
+      break;
+    case Change::kMoves:
+      if (morph.goes) break;
+      morph.goal = event.look;
+      morph.left = static_cast<std::uint8_t>(frames_);
+  }
+}
+
+void FrontGeomorphs::keep_budget(const ActiveSurface& surface, std::uint32_t max_triangles) {
+  const LevelTable& levels = model_->levels();
+  std::array<std::uint32_t, kMostFrames + 1> going{};  // triangles, by phase
+  std::uint32_t triangles = surface.triangle_count();
+  for (const Morph& morph : morphs_) {
+    if (morph.goes ? morph.vertex != model_->first_vertex(morph.step)
+                   : morph.phase > 0 || morph.vertex != model_->first_vertex(morph.step))
+      continue;
+    if (morph.goes)
+      going[morph.phase] += levels.step(morph.step).triangles;
+    else
+      triangles += levels.step(morph.step).triangles;
+  }
+  std::uint32_t last = 0;  // the greatest phase that goes at once
+  while (triangles > max_triangles && last < frames_) triangles -= going[++last];
+  for (Morph& morph : morphs_)
+    if (morph.goes && morph.phase <= last) morph.phase = 1;
+}
+
+void FrontGeomorphs::move(ActiveSurface& surface) {
+  const ViewDependentMeshData& data = model_->data();
+  ActiveVertices& vertices = surface.vertices_to_move();
+  arrived_.clear();
+  std::size_t count = 0;
+  for (Morph morph : morphs_) {
+    if (morph.goes) {
+      vertices.approach(morph.slot, vertices.buffer(), morph.goal, morph.phase);
+      if (--morph.phase > 0)
+        morphs_[count++] = morph;
+      else if (morph.vertex == model_->first_vertex(morph.step))
+        arrived_.push_back(morph.step);
+      continue;
+    }
+    if (morph.phase == 0) {
+      if (!vertices.is_active(morph.vertex)) surface.split_connectivity(morph.step);
+      morph.slot = vertices.slot(morph.vertex);
+      const std::uint32_t target = vertices.slot(model_->levels().target(morph.vertex));
+      vertices.write(morph.slot, vertices.buffer(), target);
+    }
+    if (morph.goal == kNone)
+      vertices.approach(morph.slot, data.mesh, morph.vertex, morph.left);
+    else
+      vertices.approach(morph.slot, data.placed, morph.goal, morph.left);
+    if (morph.phase < frames_) ++morph.phase;
+    if (--morph.left > 0) morphs_[count++] = morph;
+  }
+  morphs_.resize(count);
+  for (std::size_t i = arrived_.size(); i-- > 0;) surface.collapse_connectivity(arrived_[i]);
+}
+
+}  // namespace varifold
