@@ -12,9 +12,9 @@ namespace varifold::cli {
 
 struct StripifierOptions {
   std::string name = "length";
-  std::string heuristic = "rows";  ///< of the kind length, like the two that follow
-  bool keep_ends = false;          ///< strips whose ends meet are not joined
-  std::uint64_t seed = 1;          ///< of the heuristic random
+  std::string heuristic = "rows";            ///< of the kind length, like the two that follow
+  bool keep_ends = false;                    ///< strips whose ends meet are not joined
+  std::uint64_t seed = 1;                    ///< of the heuristic random
   std::optional<std::uint32_t> cache_size;   ///< 16 where it is not given
   std::optional<std::uint32_t> max_indices;  ///< of a strip; 0: no limit
   std::uint32_t usual_max_indices = 0;       ///< where it is not given
