@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 namespace varifold::test {
 namespace {
@@ -295,6 +296,28 @@ TEST(ViewFront, LevelsAndFrontsFollowEachOther) {
     }
     instance.go_to_level(0);
     EXPECT_EQ(instance.triangle_count(), model.triangle_count(0));
+  }
+}
+
+TEST(ViewFront, UnusableCamerasAskForNothing) {
+  const NamedVdpm named = make_vdpm({"sphere", icosphere(5000)}, Placement::kKept);
+  ViewDependentInstance instance(named.model);
+  Flight flight(*named.model, 0, 5);
+  for (int frame = 0; frame < 12; ++frame) {
+    const RefineCriteria good = flight.next();
+    instance.adapt(good, {1, kNone});
+    expect_front(instance, front_by_definition(*named.model, good, 1), "usable");
+    EXPECT_GT(instance.triangle_count(), named.model->triangle_count(0));
+    Camera camera;
+    if (frame % 4 == 0) camera.eye.x = std::nanf("");
+    if (frame % 4 == 1) camera.target = camera.eye;
+    if (frame % 4 == 2) camera.fovy_degrees = std::nanf("");
+    if (frame % 4 == 3) camera.eye = Vec3(0, std::numeric_limits<float>::infinity(), 0);
+    RefineCriteria bad;
+    bad.view.emplace(camera);
+    instance.adapt(bad, {1, frame % 2 == 0 ? kNone : 1000u});
+    EXPECT_EQ(instance.triangle_count(), named.model->triangle_count(0)) << frame;
+    if (frame % 3 == 0) instance.adapt(good, {std::nanf(""), kNone});
   }
 }
 

@@ -3,6 +3,7 @@
 #include <varifold/models/vdpm/region_batch.h>
 #include <varifold/models/vdpm/step_regions.h>
 #include <algorithm>
+#include <cmath>
 
 namespace varifold {
 
@@ -13,6 +14,17 @@ bool is_graded(const ViewCriterion& view) {
   const auto is_switch = [](float weight) { return weight == 0 || weight == 1; };
   return !is_switch(view.outside_weight) || !is_switch(view.back_weight) ||
          view.silhouette_weight != 1 || view.light.has_value();
+}
+
+// Whether a view can be asked at all: cameras that see nothing, or numbers that are none, cannot.
+bool is_sound(const ViewCriterion& view) {
+  const auto is_finite = [](const Vec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+  };
+  for (const Plane& plane : view.frustum.planes)
+    if (!is_finite(plane.normal) || !std::isfinite(plane.offset)) return false;
+  const float focal = view.scale.focal_pixels();
+  return is_finite(view.eye) && std::isfinite(focal) && focal > 0;
 }
 
 bool same_place(const std::optional<Sphere>& a, const std::optional<Sphere>& b) {
@@ -54,15 +66,16 @@ void FrontQuestion::set(const RefineCriteria& criteria, float tolerance, float m
   boxes_.assign(criteria.boxes.begin(), criteria.boxes.end());
   criteria_ = criteria;
   criteria_.boxes = boxes_;
+  if (criteria_.view && !is_sound(*criteria_.view)) criteria_.view.reset();
   tolerance_ = tolerance;
   place_error_ = tolerance < RefineCriteria::kFullDetail
                      ? -1
                      : mesh * kLeastGiven * (tolerance / RefineCriteria::kFullDetail);
-  is_graded_ = criteria.view && is_graded(*criteria.view);
-  if (criteria.view) {
-    const float near_distance = criteria.view->scale.near_distance();
+  is_graded_ = criteria_.view && is_graded(*criteria_.view);
+  if (criteria_.view) {
+    const float near_distance = criteria_.view->scale.near_distance();
     view_ =
-        ViewQuery(*criteria.view, tolerance, odometers.reach(criteria.view->eye, near_distance));
+        ViewQuery(*criteria_.view, tolerance, odometers.reach(criteria_.view->eye, near_distance));
   }
 }
 

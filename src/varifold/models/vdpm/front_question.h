@@ -22,9 +22,10 @@ class FrontQuestion {
   static constexpr float kLeastGiven = 0x1p-26f;
 
   FrontQuestion() = default;
-  /// Takes over `criteria`; allocates where it has more boxes than any before. `mesh` is the radius
-  /// of the mesh: tolerances from RefineCriteria::kFullDetail on let places of full detail have
-  /// errors, too, kLeastGiven of the radius at kFullDetail and growing with the tolerance.
+  /// Takes over `criteria`; a view whose camera is not usable asks for nothing. Allocates where
+  /// there are more boxes than ever before. `mesh` is the radius of the mesh: tolerances from
+  /// RefineCriteria::kFullDetail on let places of full detail have errors, too, kLeastGiven of the
+  /// radius at kFullDetail and growing with the tolerance.
   void set(const RefineCriteria& criteria, float tolerance, float mesh, Odometers& odometers);
 
   /// Whether the answers may differ from those to `criteria` by more than the odometers can tell.

@@ -81,7 +81,7 @@ float Odometers::key(Mover mover, float slack) const {
 bool Odometers::is_worn() const {
   const double size = std::max(static_cast<double>(reach_), 1e-20);
   return std::any_of(total_.begin(), total_.begin() + index_of(Mover::kNothing),
-                     [&](double total) { return total < size || total > 64 * size; });
+                     [&](double total) { return !(total >= size && total <= 64 * size); });
 }
 
 void Odometers::rebase() {
