@@ -33,6 +33,7 @@ StripHeuristic heuristic_of(const std::string& name) {
 
 void add_length_options(CLI::App& command, StripifierOptions& options) {
   std::vector<std::string> names;
+  names.reserve(kHeuristics.size());
   for (const NamedHeuristic& known : kHeuristics) names.emplace_back(known.name);
   command
       .add_option("--heuristic", options.heuristic,
