@@ -63,6 +63,37 @@ struct BuildTimes {
 };
 void report_times(const BuildInput& input, const BuildTimes& times, Report& report);
 
+/// From the input to the model's file and the report. make(detailed) makes the model, and
+/// tell(model, report) adds what is special about its kind.
+template <class Make, class Tell, class... FileOptions>
+CommandResult build_and_write(const BuildOptions& build, const Make& make, const Tell& tell,
+                              const FileOptions&... file_options) {
+  const auto input = input_path(build.input), output = output_path(build.output);
+  if (auto writable = check_output(output, build.common, ".vfm"); !writable)
+    return tl::unexpected(writable.error());
+  const Stopwatch watch;
+  auto simplified = simplify_input(build);
+  if (!simplified) return tl::unexpected(simplified.error());
+  BuildTimes times;
+  const Stopwatch model_watch;
+  const auto model = make(simplified->detailed);
+  times.model = model_watch.seconds();
+  simplified->detailed = {};
+  if (auto done = check_interrupted(input); !done) return tl::unexpected(done.error());
+  const Stopwatch write_watch;
+  const auto file = write_model(*model, output, file_options...);
+  if (!file) return tl::unexpected(file.error());
+  times.write = write_watch.seconds();
+  times.all = watch.seconds();
+
+  Report report;
+  report_model(*model, *file, simplified->faults, report);
+  tell(model, report);
+  report_stop(simplified->stop, input, report);
+  report_times(*simplified, times, report);
+  return finish(report, build.common, output);
+}
+
 /// The kinds, as subcommands of `build`.
 void add_build_pm(CLI::App& build, CommandRunner& runner);
 void add_build_strips(CLI::App& build, CommandRunner& runner);

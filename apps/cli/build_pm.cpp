@@ -12,29 +12,11 @@ struct BuildCommand {
 };
 
 CommandResult run_build(const BuildCommand& command) {
-  const auto input = input_path(command.build.input), output = output_path(command.build.output);
-  if (auto writable = check_output(output, command.build.common, ".vfm"); !writable)
-    return tl::unexpected(writable.error());
-  const Stopwatch watch;
-  auto simplified = simplify_input(command.build);
-  if (!simplified) return tl::unexpected(simplified.error());
-  BuildTimes times;
-  const Stopwatch model_watch;
-  const ProgressiveMesh model = build_progressive_mesh(simplified->detailed);
-  times.model = model_watch.seconds();
-  simplified->detailed = {};
-  if (auto done = check_interrupted(input); !done) return tl::unexpected(done.error());
-  const Stopwatch write_watch;
-  const auto file = write_model(model, output, command.file);
-  if (!file) return tl::unexpected(file.error());
-  times.write = write_watch.seconds();
-
-  Report report;
-  report_model(model, *file, simplified->faults, report);
-  report_stop(simplified->stop, input, report);
-  times.all = watch.seconds();
-  report_times(*simplified, times, report);
-  return finish(report, command.build.common, output);
+  const auto make = [](const DetailedMesh& detailed) {
+    return std::make_shared<const ProgressiveMesh>(build_progressive_mesh(detailed));
+  };
+  return build_and_write(
+      command.build, make, [](const auto&, Report&) {}, command.file);
 }
 
 void add_bits(CLI::App& command, const char* name, int& bits, const char* help) {

@@ -89,38 +89,20 @@ struct StripsCommand {
 
 template <class Model>
 CommandResult run_build(const StripsCommand<Model>& command) {
-  const auto input = input_path(command.build.input), output = output_path(command.build.output);
   if constexpr (requires { StripsBuild<Model>::check_options(command.own); })
     StripsBuild<Model>::check_options(command.own);
   check_stripifier_options(command.own.stripifier);
   if (command.build.flags.placement == "optimal")
     wrong_usage("--placement optimal: strips name vertices, they do not move them; use kept");
-  if (auto writable = check_output(output, command.build.common, ".vfm"); !writable)
-    return tl::unexpected(writable.error());
-  const Stopwatch watch;
-  auto simplified = simplify_input(command.build);
-  if (!simplified) return tl::unexpected(simplified.error());
-  BuildTimes times;
-  const Stopwatch model_watch;
-  const auto model =
-      std::make_shared<const Model>(StripsBuild<Model>::build(simplified->detailed, command.own));
-  times.model = model_watch.seconds();
-  simplified->detailed = {};
-  if (auto done = check_interrupted(input); !done) return tl::unexpected(done.error());
-  const Stopwatch write_watch;
-  const auto file = write_model(*model, output);
-  if (!file) return tl::unexpected(file.error());
-  times.write = write_watch.seconds();
-
-  Report report;
-  report_model(*model, *file, simplified->faults, report);
-  if constexpr (requires { model->form_kind(); })
-    report.text("form", "form", std::string(form_name(model->form_kind())));
-  times.all = watch.seconds();
-  report_strips(model, report);
-  report_stop(simplified->stop, input, report);
-  report_times(*simplified, times, report);
-  return finish(report, command.build.common, output);
+  const auto make = [&command](const DetailedMesh& detailed) {
+    return std::make_shared<const Model>(StripsBuild<Model>::build(detailed, command.own));
+  };
+  const auto tell = [](const std::shared_ptr<const Model>& model, Report& report) {
+    if constexpr (requires { model->form_kind(); })
+      report.text("form", "form", std::string(form_name(model->form_kind())));
+    report_strips(model, report);
+  };
+  return build_and_write(command.build, make, tell);
 }
 
 template <class Model>

@@ -12,34 +12,17 @@ struct BuildCommand {
 };
 
 CommandResult run_build(const BuildCommand& command) {
-  const auto input = input_path(command.build.input), output = output_path(command.build.output);
-  if (auto writable = check_output(output, command.build.common); !writable)
-    return tl::unexpected(writable.error());
-  const Stopwatch watch;
-  auto simplified = simplify_input(command.build);
-  if (!simplified) return tl::unexpected(simplified.error());
-  BuildTimes times;
-  const Stopwatch model_watch;
-  StepBoundsOptions options;
-  options.threads = command.build.common.threads;
-  options.progress = show_progress(input.filename().string());
-  options.vertical = command.vertical;
-  const ViewDependentMesh model = build_view_dependent_mesh(simplified->detailed, options);
-  end_progress();
-  times.model = model_watch.seconds();
-  simplified->detailed = {};
-  if (auto done = check_interrupted(input); !done) return tl::unexpected(done.error());
-  const Stopwatch write_watch;
-  const auto file = write_model(model, output);
-  if (!file) return tl::unexpected(file.error());
-  times.write = write_watch.seconds();
-
-  Report report;
-  report_model(model, *file, simplified->faults, report);
-  report_stop(simplified->stop, input, report);
-  times.all = watch.seconds();
-  report_times(*simplified, times, report);
-  return finish(report, command.build.common, output);
+  const auto make = [&command](const DetailedMesh& detailed) {
+    StepBoundsOptions options;
+    options.threads = command.build.common.threads;
+    options.progress = show_progress(input_path(command.build.input).filename().string());
+    options.vertical = command.vertical;
+    auto model =
+        std::make_shared<const ViewDependentMesh>(build_view_dependent_mesh(detailed, options));
+    end_progress();
+    return model;
+  };
+  return build_and_write(command.build, make, [](const auto&, Report&) {});
 }
 
 }  // namespace

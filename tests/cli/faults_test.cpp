@@ -138,7 +138,7 @@ TEST_F(Faults, LessThanTheBaseIsTheBaseWithAWarning) {
 // Before any work: the input need not even be there.
 TEST_F(Faults, NamesOfOtherFormats) {
   expect_wrong_usage({"render", path("none.ply"), "-o", path("x.jpg")}, ".png");
-  for (const char* kind : {"pm", "strips", "lodstrips", "mts"})
+  for (const char* kind : {"pm", "strips", "vdpm", "lodstrips", "mts"})
     expect_wrong_usage({"build", kind, path("none.ply"), "-o", path("x.ply")}, ".vfm");
   EXPECT_EQ(run_tool({"generate", "torus", "--triangles", "60", "-o", path("m.ply")}).exit_code, 0);
   EXPECT_EQ(run_tool({"build", "pm", path("m.ply"), "-o", path("M.VFM")}).exit_code, 0);

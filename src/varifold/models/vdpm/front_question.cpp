@@ -82,8 +82,9 @@ void FrontQuestion::set(const RefineCriteria& criteria, float tolerance, float m
 bool FrontQuestion::differs_in_kind(const RefineCriteria& criteria, float tolerance) const {
   if (std::max(tolerance, tolerance_) >= RefineCriteria::kFullDetail && tolerance != tolerance_)
     return true;
-  if (is_graded_ || criteria.view.has_value() != criteria_.view.has_value()) return true;
-  if (criteria.view) {
+  const bool sees = criteria.view && is_sound(*criteria.view);
+  if (is_graded_ || sees != criteria_.view.has_value()) return true;
+  if (sees) {
     const ViewCriterion &a = *criteria.view, &b = *criteria_.view;
     if (is_graded(a) || a.outside_weight != b.outside_weight || a.back_weight != b.back_weight ||
         a.scale.near_distance() != b.scale.near_distance())
@@ -126,48 +127,58 @@ bool FrontQuestion::is_plain() const {
          criteria_.predicate == nullptr;
 }
 
-void FrontQuestion::own(const ViewDependentMesh& model, std::span<const std::uint32_t> steps,
-                        std::span<const std::uint32_t> chosen, std::span<const float> keep,
-                        std::vector<ViewAnswer>& answers) const {
+// Answers for steps[chosen[i]]: `single(bounds, center, i)`, or, where only the view counts, in
+// batches whose lanes `set(batch, lane, bounds, i)` fills, but for the centre and the cone's axis.
+template <class Single, class Set>
+void FrontQuestion::answer(const ViewDependentMesh& model, std::span<const std::uint32_t> steps,
+                           std::span<const std::uint32_t> chosen, const Single& single,
+                           const Set& set, std::vector<ViewAnswer>& answers) const {
   answers.resize(chosen.size());
   if (!is_plain()) {
     for (std::size_t i = 0; i < chosen.size(); ++i)
-      answers[i] = own(model.bounds(steps[chosen[i]]), model.center(steps[chosen[i]]), keep[i]);
+      answers[i] = single(model.bounds(steps[chosen[i]]), model.center(steps[chosen[i]]), i);
     return;
   }
-  const auto set = [&](RegionBatch& batch, std::size_t lane, std::size_t i) {
+  const auto fill = [&](RegionBatch& batch, std::size_t lane, std::size_t i) {
     const StepBounds bounds = model.bounds(steps[chosen[i]]);
     set_center(batch, lane, model.center(steps[chosen[i]]));
     batch.cone[lane] = bounds.cone;
+    set(batch, lane, bounds, i);
+  };
+  ask_in_batches(view_, chosen.size(), fill, answers);
+}
+
+void FrontQuestion::own(const ViewDependentMesh& model, std::span<const std::uint32_t> steps,
+                        std::span<const std::uint32_t> chosen, std::span<const float> keep,
+                        std::vector<ViewAnswer>& answers) const {
+  const auto single = [&](const StepBounds& bounds, const Vec3& center, std::size_t i) {
+    return own(bounds, center, keep[i]);
+  };
+  const auto set = [&](RegionBatch& batch, std::size_t lane, const StepBounds& bounds,
+                       std::size_t i) {
     batch.cosine[lane] = own_cosine(bounds);
     batch.radius[lane] = bounds.radius_length();
     batch.mu[lane] = bounds.mu_length();
     batch.delta[lane] = bounds.delta_length();
     batch.keep[lane] = keep[i];
   };
-  ask_in_batches(view_, chosen.size(), set, answers);
+  answer(model, steps, chosen, single, set, answers);
 }
 
 void FrontQuestion::nested(const ViewDependentMesh& model, std::span<const std::uint32_t> steps,
                            std::span<const std::uint32_t> chosen,
                            std::vector<ViewAnswer>& answers) const {
-  answers.resize(chosen.size());
-  if (!is_plain()) {
-    for (std::size_t i = 0; i < chosen.size(); ++i)
-      answers[i] = nested(model.bounds(steps[chosen[i]]), model.center(steps[chosen[i]]));
-    return;
-  }
-  const auto set = [&](RegionBatch& batch, std::size_t lane, std::size_t i) {
-    const StepBounds bounds = model.bounds(steps[chosen[i]]);
-    set_center(batch, lane, model.center(steps[chosen[i]]));
-    batch.cone[lane] = bounds.cone;
+  const auto single = [&](const StepBounds& bounds, const Vec3& center, std::size_t) {
+    return nested(bounds, center);
+  };
+  const auto set = [](RegionBatch& batch, std::size_t lane, const StepBounds& bounds, std::size_t) {
     batch.cosine[lane] = nested_cosine(bounds);
     batch.radius[lane] = bounds.nested_radius_length();
     batch.mu[lane] = bounds.nested_error_length();
     batch.delta[lane] = 0;
     batch.keep[lane] = 0;
   };
-  ask_in_batches(view_, chosen.size(), set, answers);
+  answer(model, steps, chosen, single, set, answers);
 }
 
 }  // namespace varifold

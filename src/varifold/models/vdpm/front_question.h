@@ -45,6 +45,10 @@ class FrontQuestion {
               std::span<const std::uint32_t> chosen, std::vector<ViewAnswer>& answers) const;
 
  private:
+  template <class Single, class Set>
+  void answer(const ViewDependentMesh& model, std::span<const std::uint32_t> steps,
+              std::span<const std::uint32_t> chosen, const Single& single, const Set& set,
+              std::vector<ViewAnswer>& answers) const;
   // Whether the view alone asks, and for yes or no.
   [[nodiscard]] bool is_plain() const;
   [[nodiscard]] ViewAnswer ask(const ViewRegion& region, float keep) const;
