@@ -36,26 +36,40 @@ bool same_place(const std::optional<Plane>& a, const std::optional<Plane>& b) {
   return !a || (a->normal == b->normal && a->offset == b->offset);
 }
 
-constexpr std::size_t kLanes = RegionBatch::kSize;
-
-void set_center(RegionBatch& batch, std::size_t lane, const Vec3& center) {
-  batch.x[lane] = center.x;
-  batch.y[lane] = center.y;
-  batch.z[lane] = center.z;
+// Asks `test(batch, answer)` for steps[i], eight at a time. What is left over in the last
+// batch is asked again for nothing.
+template <class Test>
+void ask_in_batches(const ViewDependentMesh& model, std::span<const std::uint32_t> steps,
+                    std::span<const float> keep, const Test& test, FrontAnswers& answers) {
+  constexpr std::size_t kLanes = RegionBatch::kSize;
+  RegionBatch batch;
+  AnswerBatch answer;
+  for (std::size_t begin = 0; begin < steps.size(); begin += kLanes) {
+    const std::size_t lanes = std::min(kLanes, steps.size() - begin);
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const std::size_t i = begin + std::min(lane, lanes - 1);
+      const std::uint32_t step = steps[i];
+      batch.bounds[lane] = &model.packed_bounds(step);
+      batch.centers[lane] = &model.center(step);
+      if (!keep.empty()) batch.keep[lane] = keep[i];
+    }
+    test(batch, answer);
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      answers.asked[begin + lane] = static_cast<std::uint8_t>(answer.asked >> lane & 1u);
+      answers.keys[begin + lane] = answer.keys[lane];
+    }
+  }
 }
 
-// Fills lanes with steps, by `set(batch, lane, i)`, and hands on the answers. What is left over in
-// the last batch is asked again for nothing.
-template <class Set>
-void ask_in_batches(const ViewQuery& view, std::size_t count, const Set& set,
-                    std::vector<ViewAnswer>& answers) {
-  RegionBatch batch{};
-  AnswerBatch answer;
-  for (std::size_t begin = 0; begin < count; begin += kLanes) {
-    const std::size_t lanes = std::min(kLanes, count - begin);
-    for (std::size_t lane = 0; lane < lanes; ++lane) set(batch, lane, begin + lane);
-    test_regions(view, batch, answer);
-    for (std::size_t lane = 0; lane < lanes; ++lane) answers[begin + lane] = answer.at(lane);
+// The same one by one, by `ask(bounds, center, i)`.
+template <class Ask>
+void ask_singly(const ViewDependentMesh& model, const Odometers& odometers,
+                std::span<const std::uint32_t> steps, const Ask& ask, FrontAnswers& answers) {
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const std::uint32_t step = steps[i];
+    const ViewAnswer answer = ask(model.bounds(step), model.center(step), i);
+    answers.asked[i] = answer.asked ? 1 : 0;
+    answers.keys[i] = odometers.key(answer.mover, answer.slack);
   }
 }
 
@@ -127,58 +141,37 @@ bool FrontQuestion::is_plain() const {
          criteria_.predicate == nullptr;
 }
 
-// Answers for steps[chosen[i]]: `single(bounds, center, i)`, or, where only the view counts, in
-// batches whose lanes `set(batch, lane, bounds, i)` fills, but for the centre and the cone's axis.
-template <class Single, class Set>
-void FrontQuestion::answer(const ViewDependentMesh& model, std::span<const std::uint32_t> steps,
-                           std::span<const std::uint32_t> chosen, const Single& single,
-                           const Set& set, std::vector<ViewAnswer>& answers) const {
-  answers.resize(chosen.size());
-  if (!is_plain()) {
-    for (std::size_t i = 0; i < chosen.size(); ++i)
-      answers[i] = single(model.bounds(steps[chosen[i]]), model.center(steps[chosen[i]]), i);
-    return;
+void FrontQuestion::own(const ViewDependentMesh& model, const Odometers& odometers,
+                        std::span<const std::uint32_t> steps, std::span<const float> keep,
+                        FrontAnswers& answers) const {
+  answers.resize(steps.size());
+  if (is_plain()) {
+    const auto test = [&](const RegionBatch& batch, AnswerBatch& answer) {
+      test_own_regions(view_, odometers, batch, answer);
+    };
+    ask_in_batches(model, steps, keep, test, answers);
+  } else {
+    const auto ask_one = [&](const StepBounds& bounds, const Vec3& center, std::size_t i) {
+      return own(bounds, center, keep.empty() ? 0.0f : keep[i]);
+    };
+    ask_singly(model, odometers, steps, ask_one, answers);
   }
-  const auto fill = [&](RegionBatch& batch, std::size_t lane, std::size_t i) {
-    const StepBounds bounds = model.bounds(steps[chosen[i]]);
-    set_center(batch, lane, model.center(steps[chosen[i]]));
-    batch.cone[lane] = bounds.cone;
-    set(batch, lane, bounds, i);
-  };
-  ask_in_batches(view_, chosen.size(), fill, answers);
 }
 
-void FrontQuestion::own(const ViewDependentMesh& model, std::span<const std::uint32_t> steps,
-                        std::span<const std::uint32_t> chosen, std::span<const float> keep,
-                        std::vector<ViewAnswer>& answers) const {
-  const auto single = [&](const StepBounds& bounds, const Vec3& center, std::size_t i) {
-    return own(bounds, center, keep[i]);
-  };
-  const auto set = [&](RegionBatch& batch, std::size_t lane, const StepBounds& bounds,
-                       std::size_t i) {
-    batch.cosine[lane] = own_cosine(bounds);
-    batch.radius[lane] = bounds.radius_length();
-    batch.mu[lane] = bounds.mu_length();
-    batch.delta[lane] = bounds.delta_length();
-    batch.keep[lane] = keep[i];
-  };
-  answer(model, steps, chosen, single, set, answers);
-}
-
-void FrontQuestion::nested(const ViewDependentMesh& model, std::span<const std::uint32_t> steps,
-                           std::span<const std::uint32_t> chosen,
-                           std::vector<ViewAnswer>& answers) const {
-  const auto single = [&](const StepBounds& bounds, const Vec3& center, std::size_t) {
-    return nested(bounds, center);
-  };
-  const auto set = [](RegionBatch& batch, std::size_t lane, const StepBounds& bounds, std::size_t) {
-    batch.cosine[lane] = nested_cosine(bounds);
-    batch.radius[lane] = bounds.nested_radius_length();
-    batch.mu[lane] = bounds.nested_error_length();
-    batch.delta[lane] = 0;
-    batch.keep[lane] = 0;
-  };
-  answer(model, steps, chosen, single, set, answers);
+void FrontQuestion::nested(const ViewDependentMesh& model, const Odometers& odometers,
+                           std::span<const std::uint32_t> steps, FrontAnswers& answers) const {
+  answers.resize(steps.size());
+  if (is_plain()) {
+    const auto test = [&](const RegionBatch& batch, AnswerBatch& answer) {
+      test_nested_regions(view_, odometers, batch, answer);
+    };
+    ask_in_batches(model, steps, {}, test, answers);
+  } else {
+    const auto ask_one = [&](const StepBounds& bounds, const Vec3& center, std::size_t) {
+      return nested(bounds, center);
+    };
+    ask_singly(model, odometers, steps, ask_one, answers);
+  }
 }
 
 }  // namespace varifold

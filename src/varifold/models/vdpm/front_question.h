@@ -10,11 +10,26 @@
 #include <varifold/models/vdpm/view_dependent_mesh.h>
 #include <varifold/models/vdpm/view_query.h>
 #include <varifold/view/criteria.h>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace varifold {
+
+/// Answers to many questions: whether a step is asked (1 or 0), and the key at which to ask again.
+struct FrontAnswers {
+  std::vector<std::uint8_t> asked;
+  std::vector<float> keys;
+
+  void resize(std::size_t count) {
+    asked.resize(count);
+    keys.resize(count);
+  }
+  [[nodiscard]] std::size_t bytes() const {
+    return asked.capacity() + keys.capacity() * sizeof(float);
+  }
+};
 
 /// A RefineCriteria and a tolerance, made ready for many tests.
 class FrontQuestion {
@@ -36,19 +51,15 @@ class FrontQuestion {
   [[nodiscard]] ViewAnswer own(const StepBounds& bounds, const Vec3& center, float keep) const;
   [[nodiscard]] ViewAnswer nested(const StepBounds& bounds, const Vec3& center) const;
 
-  /// The same for many steps of a model, eight at a time; answers[i] is that for steps[chosen[i]].
-  /// `keep` has an entry for each.
-  void own(const ViewDependentMesh& model, std::span<const std::uint32_t> steps,
-           std::span<const std::uint32_t> chosen, std::span<const float> keep,
-           std::vector<ViewAnswer>& answers) const;
-  void nested(const ViewDependentMesh& model, std::span<const std::uint32_t> steps,
-              std::span<const std::uint32_t> chosen, std::vector<ViewAnswer>& answers) const;
+  /// The same for many steps of a model, eight at a time. A step with keep[i] > 0 stays asked that
+  /// much longer; `keep` may be empty.
+  void own(const ViewDependentMesh& model, const Odometers& odometers,
+           std::span<const std::uint32_t> steps, std::span<const float> keep,
+           FrontAnswers& answers) const;
+  void nested(const ViewDependentMesh& model, const Odometers& odometers,
+              std::span<const std::uint32_t> steps, FrontAnswers& answers) const;
 
  private:
-  template <class Single, class Set>
-  void answer(const ViewDependentMesh& model, std::span<const std::uint32_t> steps,
-              std::span<const std::uint32_t> chosen, const Single& single, const Set& set,
-              std::vector<ViewAnswer>& answers) const;
   // Whether the view alone asks, and for yes or no.
   [[nodiscard]] bool is_plain() const;
   [[nodiscard]] ViewAnswer ask(const ViewRegion& region, float keep) const;

@@ -19,13 +19,19 @@ std::uint32_t* find_rest(std::span<const float> keys, const Odometers& odometers
   return end;
 }
 
+// Room for all keys and one that is written in vain.
+std::uint32_t* make_room(std::span<const float> keys, std::vector<std::uint32_t>& room) {
+  if (room.size() <= keys.size()) room.resize(keys.size() + keys.size() / 2 + 1);
+  return room.data();
+}
+
 }  // namespace
 
-void find_due_keys_plain(std::span<const float> keys, const Odometers& odometers,
-                         std::vector<std::uint32_t>& due) {
-  due.resize(keys.size() + 1);
-  const std::uint32_t* end = find_rest(keys, odometers, 0, due.data());
-  due.resize(static_cast<std::size_t>(end - due.data()));
+std::span<const std::uint32_t> find_due_keys_plain(std::span<const float> keys,
+                                                   const Odometers& odometers,
+                                                   std::vector<std::uint32_t>& room) {
+  std::uint32_t* begin = make_room(keys, room);
+  return {begin, find_rest(keys, odometers, 0, begin)};
 }
 
 #if defined(__x86_64__)
@@ -36,11 +42,10 @@ constexpr std::size_t kWord = 64;
 
 // Eight keys at a time: the last bits of each choose its odometer. Sixty-four answers are read off
 // together, since few of them are yes.
-__attribute__((target("avx2,bmi"))) void find_due_keys_avx2(std::span<const float> keys,
-                                                            const Odometers& odometers,
-                                                            std::vector<std::uint32_t>& due) {
-  due.resize(keys.size() + 1);
-  std::uint32_t* end = due.data();
+__attribute__((target("avx2,bmi"))) std::span<const std::uint32_t> find_due_keys_avx2(
+    std::span<const float> keys, const Odometers& odometers, std::vector<std::uint32_t>& room) {
+  std::uint32_t* const begin = make_room(keys, room);
+  std::uint32_t* end = begin;
   const __m256 now = _mm256_loadu_ps(odometers.now().data());
   std::size_t i = 0;
   for (; i + kWord <= keys.size(); i += kWord) {
@@ -55,24 +60,26 @@ __attribute__((target("avx2,bmi"))) void find_due_keys_avx2(std::span<const floa
     for (; yes != 0; yes &= yes - 1)
       *end++ = static_cast<std::uint32_t>(i) + static_cast<std::uint32_t>(std::countr_zero(yes));
   }
-  end = find_rest(keys, odometers, i, end);
-  due.resize(static_cast<std::size_t>(end - due.data()));
+  return {begin, find_rest(keys, odometers, i, end)};
 }
 
 const bool kHasAvx2 = __builtin_cpu_supports("avx2") != 0;
 
 }  // namespace
 
-void find_due_keys(std::span<const float> keys, const Odometers& odometers,
-                   std::vector<std::uint32_t>& due) {
-  kHasAvx2 ? find_due_keys_avx2(keys, odometers, due) : find_due_keys_plain(keys, odometers, due);
+std::span<const std::uint32_t> find_due_keys(std::span<const float> keys,
+                                             const Odometers& odometers,
+                                             std::vector<std::uint32_t>& room) {
+  return kHasAvx2 ? find_due_keys_avx2(keys, odometers, room)
+                  : find_due_keys_plain(keys, odometers, room);
 }
 
 #else
 
-void find_due_keys(std::span<const float> keys, const Odometers& odometers,
-                   std::vector<std::uint32_t>& due) {
-  find_due_keys_plain(keys, odometers, due);
+std::span<const std::uint32_t> find_due_keys(std::span<const float> keys,
+                                             const Odometers& odometers,
+                                             std::vector<std::uint32_t>& room) {
+  return find_due_keys_plain(keys, odometers, room);
 }
 
 #endif

@@ -72,7 +72,7 @@ float Odometers::key(Mover mover, float slack) const {
   if (mover == Mover::kNothing)
     return std::bit_cast<float>(std::bit_cast<std::uint32_t>(kInfinity) - 8 +
                                 static_cast<std::uint32_t>(mover));
-  const float sum = static_cast<float>(total_[index_of(mover)] + static_cast<double>(slack));
+  const float sum = base_[index_of(mover)] + slack;
   // Down by what the last three bits may add, and by rounding; keys are above 0.
   const auto bits = std::bit_cast<std::uint32_t>(std::max(sum, 1e-30f));
   return std::bit_cast<float>(((bits - 8u) & ~7u) | static_cast<std::uint32_t>(mover));
@@ -91,8 +91,11 @@ void Odometers::rebase() {
 }
 
 void Odometers::round() {
-  for (std::size_t i = 0; i < kCount; ++i)
-    now_[i] = std::nextafter(static_cast<float>(total_[i]), kInfinity);
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const auto nearest = static_cast<float>(total_[i]);
+    now_[i] = std::nextafter(nearest, kInfinity);
+    base_[i] = std::nextafter(nearest, -kInfinity);
+  }
   now_[index_of(Mover::kNothing)] = 0;
 }
 

@@ -41,6 +41,8 @@ class Odometers {
   [[nodiscard]] float key(Mover mover, float slack) const;
   /// As floats rounded up, in the order of Mover; kNothing is never reached.
   [[nodiscard]] const std::array<float, kCount>& now() const { return now_; }
+  /// What keys add their slack to: the totals as floats rounded down.
+  [[nodiscard]] const std::array<float, kCount>& base() const { return base_; }
   [[nodiscard]] bool is_due(float key) const {
     return now_[std::bit_cast<std::uint32_t>(key) & 7u] >= key;
   }
@@ -56,7 +58,7 @@ class Odometers {
   Sphere mesh_;
   float reach_ = 0, present_reach_ = 0;
   std::array<double, kCount> total_{};
-  std::array<float, kCount> now_{};
+  std::array<float, kCount> now_{}, base_{};
 };
 
 }  // namespace varifold

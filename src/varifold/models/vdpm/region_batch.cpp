@@ -1,11 +1,27 @@
 #include <varifold/models/vdpm/region_batch.h>
 
+#include <varifold/models/vdpm/step_regions.h>
 #include <varifold/view/cone_code.h>
 #include <cmath>
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
 
 namespace varifold {
 
 namespace {
+
+constexpr std::size_t kSize = RegionBatch::kSize;
+
+// The same numbers of all lanes side by side; of the bounds the words as they lie in memory.
+struct Lanes {
+  alignas(32) float x[kSize], y[kSize], z[kSize];
+  alignas(32) std::uint32_t cone[kSize], radii[kSize], errors[kSize], below[kSize];
+};
+struct LaneAnswers {
+  alignas(32) float slack[kSize];
+  alignas(32) std::int32_t asked[kSize], mover[kSize];
+};
 
 // The axis of a cone code, in the steps of unpack_cone().
 struct Axis {
@@ -30,52 +46,202 @@ inline Axis unpack_axis(std::uint32_t code) {
   return {nx * scale, ny * scale, nz * scale};
 }
 
+inline float sine_of(float cosine) {
+  return std::sqrt(view_query::greater(1 - cosine * cosine, 0));
+}
+
+// Two codes lie in a word of memory, the first one in its lower half.
+inline float first_length(std::uint32_t word) { return error_of_code(word & 0xffffu); }
+inline float second_length(std::uint32_t word) { return error_of_code(word >> 16u); }
+
+struct Own {
+  static view_query::Lane lane(const Lanes& lanes, const float* keep, std::size_t i) {
+    const Axis axis = unpack_axis(lanes.cone[i]);
+    const float cosine = own_cosine(lanes.cone[i]);
+    return {lanes.x[i],
+            lanes.y[i],
+            lanes.z[i],
+            first_length(lanes.radii[i]),
+            axis.x,
+            axis.y,
+            axis.z,
+            cosine,
+            sine_of(cosine),
+            first_length(lanes.errors[i]),
+            second_length(lanes.errors[i]),
+            keep[i]};
+  }
+};
+
+struct Nested {
+  static view_query::Lane lane(const Lanes& lanes, const float* /*keep*/, std::size_t i) {
+    const Axis axis = unpack_axis(lanes.cone[i]);
+    const float cosine = nested_cosine(lanes.below[i] >> 16u);
+    return {lanes.x[i], lanes.y[i], lanes.z[i],      second_length(lanes.radii[i]), axis.x, axis.y,
+            axis.z,     cosine,     sine_of(cosine), first_length(lanes.below[i]),  0,      0};
+  }
+};
+
+template <class Kind>
 __attribute__((always_inline)) inline void test_lanes(const ViewQuery& query,
-                                                      const RegionBatch& __restrict regions,
-                                                      AnswerBatch& __restrict answers) {
+                                                      const Lanes& __restrict lanes,
+                                                      const float* __restrict keep,
+                                                      LaneAnswers& __restrict answers) {
   const view_query::Numbers view = query.numbers();  // nothing that is written is part of it
-  for (std::size_t i = 0; i < RegionBatch::kSize; ++i) {
-    const Axis axis = unpack_axis(regions.cone[i]);
-    const float cosine = regions.cosine[i];
-    const float sine = std::sqrt(view_query::greater(1 - cosine * cosine, 0));
-    const view_query::LaneAnswer answer = view_query::test_lane(
-        view, {regions.x[i], regions.y[i], regions.z[i], regions.radius[i], axis.x, axis.y, axis.z,
-               cosine, sine, regions.mu[i], regions.delta[i], regions.keep[i]});
+  for (std::size_t i = 0; i < kSize; ++i) {
+    const view_query::LaneAnswer answer = view_query::test_lane(view, Kind::lane(lanes, keep, i));
     answers.asked[i] = answer.asked;
     answers.mover[i] = answer.mover;
     answers.slack[i] = answer.slack;
   }
 }
 
-}  // namespace
+inline std::uint32_t word_of(std::uint16_t first, std::uint16_t second) {
+  return first | static_cast<std::uint32_t>(second) << 16u;
+}
 
-void test_regions_plain(const ViewQuery& query, const RegionBatch& regions, AnswerBatch& answers) {
-  test_lanes(query, regions, answers);
+template <class Kind>
+void test_plain(const ViewQuery& query, const Odometers& odometers, const RegionBatch& regions,
+                AnswerBatch& answers) {
+  Lanes lanes;
+  for (std::size_t i = 0; i < kSize; ++i) {
+    const PackedBounds& bounds = *regions.bounds[i];
+    const Vec3& center = *regions.centers[i];
+    lanes.x[i] = center.x;
+    lanes.y[i] = center.y;
+    lanes.z[i] = center.z;
+    lanes.cone[i] = bounds.cone;
+    lanes.radii[i] = word_of(bounds.radius, bounds.nested_radius);
+    lanes.errors[i] = word_of(bounds.mu, bounds.delta);
+    lanes.below[i] = word_of(bounds.nested_error, bounds.nested_angle);
+  }
+  LaneAnswers lane_answers;
+  test_lanes<Kind>(query, lanes, regions.keep.data(), lane_answers);
+  answers.asked = 0;
+  for (std::size_t i = 0; i < kSize; ++i) {
+    answers.asked |= lane_answers.asked[i] != 0 ? 1u << i : 0u;
+    answers.keys[i] =
+        odometers.key(static_cast<Mover>(lane_answers.mover[i]), lane_answers.slack[i]);
+  }
 }
 
 #if defined(__x86_64__)
 
-namespace {
+// Columns of four rows of four words, for two such blocks at once.
+struct Columns {
+  __m256 column[4];
+};
+__attribute__((target("avx2"))) inline Columns transposed(__m256 a, __m256 b, __m256 c, __m256 d) {
+  const __m256 ab_low = _mm256_unpacklo_ps(a, b), ab_high = _mm256_unpackhi_ps(a, b);
+  const __m256 cd_low = _mm256_unpacklo_ps(c, d), cd_high = _mm256_unpackhi_ps(c, d);
+  const auto low = [](__m256 p, __m256 q) __attribute__((target("avx2"))) {
+    return _mm256_castpd_ps(_mm256_unpacklo_pd(_mm256_castps_pd(p), _mm256_castps_pd(q)));
+  };
+  const auto high = [](__m256 p, __m256 q) __attribute__((target("avx2"))) {
+    return _mm256_castpd_ps(_mm256_unpackhi_pd(_mm256_castps_pd(p), _mm256_castps_pd(q)));
+  };
+  return {
+      {low(ab_low, cd_low), high(ab_low, cd_low), low(ab_high, cd_high), high(ab_high, cd_high)}};
+}
 
-__attribute__((target("avx2"))) void test_regions_avx2(const ViewQuery& query,
-                                                       const RegionBatch& regions,
-                                                       AnswerBatch& answers) {
-  test_lanes(query, regions, answers);
+__attribute__((target("avx2"))) inline __m256 bounds_row(const RegionBatch& regions,
+                                                         std::size_t row) {
+  const auto load = [&](std::size_t lane) __attribute__((target("avx2"))) {
+    return _mm_loadu_ps(reinterpret_cast<const float*>(regions.bounds[lane]));
+  };
+  return _mm256_set_m128(load(row + 4), load(row));
+}
+
+__attribute__((target("avx2"))) inline __m256 center_row(const RegionBatch& regions,
+                                                         std::size_t row) {
+  const auto load = [&](std::size_t lane) __attribute__((target("avx2"))) {
+    const float* at = &regions.centers[lane]->x;
+    return _mm_movelh_ps(_mm_castsi128_ps(_mm_loadu_si64(at)), _mm_load_ss(at + 2));
+  };
+  return _mm256_set_m128(load(row + 4), load(row));
+}
+
+__attribute__((target("avx2"))) inline void load_lanes(const RegionBatch& regions, Lanes& lanes) {
+  const Columns place = transposed(center_row(regions, 0), center_row(regions, 1),
+                                   center_row(regions, 2), center_row(regions, 3));
+  _mm256_store_ps(lanes.x, place.column[0]);
+  _mm256_store_ps(lanes.y, place.column[1]);
+  _mm256_store_ps(lanes.z, place.column[2]);
+  const Columns words = transposed(bounds_row(regions, 0), bounds_row(regions, 1),
+                                   bounds_row(regions, 2), bounds_row(regions, 3));
+  const auto store = [](std::uint32_t * to, __m256 column) __attribute__((target("avx2"))) {
+    _mm256_store_si256(reinterpret_cast<__m256i*>(to), _mm256_castps_si256(column));
+  };
+  store(lanes.cone, words.column[0]);
+  store(lanes.radii, words.column[1]);
+  store(lanes.errors, words.column[2]);
+  store(lanes.below, words.column[3]);
+}
+
+// Odometers::key() of all lanes.
+__attribute__((target("avx2"))) inline void make_keys(const Odometers& odometers,
+                                                      const LaneAnswers& lanes,
+                                                      AnswerBatch& answers) {
+  const __m256i mover = _mm256_load_si256(reinterpret_cast<const __m256i*>(lanes.mover));
+  const __m256 base = _mm256_permutevar8x32_ps(_mm256_loadu_ps(odometers.base().data()), mover);
+  const __m256 sum = _mm256_add_ps(base, _mm256_load_ps(lanes.slack));
+  const __m256i bits = _mm256_castps_si256(_mm256_max_ps(sum, _mm256_set1_ps(1e-30f)));
+  const __m256i less =
+      _mm256_andnot_si256(_mm256_set1_epi32(7), _mm256_sub_epi32(bits, _mm256_set1_epi32(8)));
+  _mm256_store_ps(answers.keys.data(), _mm256_castsi256_ps(_mm256_or_si256(less, mover)));
+  const __m256i no = _mm256_cmpeq_epi32(
+      _mm256_load_si256(reinterpret_cast<const __m256i*>(lanes.asked)), _mm256_setzero_si256());
+  answers.asked = ~static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_castsi256_ps(no))) & 0xffu;
+}
+
+template <class Kind>
+__attribute__((target("avx2"))) void test_avx2(const ViewQuery& query, const Odometers& odometers,
+                                               const RegionBatch& regions, AnswerBatch& answers) {
+  Lanes lanes;
+  load_lanes(regions, lanes);
+  LaneAnswers lane_answers;
+  test_lanes<Kind>(query, lanes, regions.keep.data(), lane_answers);
+  make_keys(odometers, lane_answers, answers);
 }
 const bool kHasAvx2 = __builtin_cpu_supports("avx2") != 0;
 
-}  // namespace
-
-void test_regions(const ViewQuery& query, const RegionBatch& regions, AnswerBatch& answers) {
-  kHasAvx2 ? test_regions_avx2(query, regions, answers) : test_lanes(query, regions, answers);
+template <class Kind>
+void test_regions(const ViewQuery& query, const Odometers& odometers, const RegionBatch& regions,
+                  AnswerBatch& answers) {
+  kHasAvx2 ? test_avx2<Kind>(query, odometers, regions, answers)
+           : test_plain<Kind>(query, odometers, regions, answers);
 }
 
 #else
 
-void test_regions(const ViewQuery& query, const RegionBatch& regions, AnswerBatch& answers) {
-  test_lanes(query, regions, answers);
+template <class Kind>
+void test_regions(const ViewQuery& query, const Odometers& odometers, const RegionBatch& regions,
+                  AnswerBatch& answers) {
+  test_plain<Kind>(query, odometers, regions, answers);
 }
 
 #endif
+
+}  // namespace
+
+void test_own_regions(const ViewQuery& query, const Odometers& odometers,
+                      const RegionBatch& regions, AnswerBatch& answers) {
+  test_regions<Own>(query, odometers, regions, answers);
+}
+
+void test_nested_regions(const ViewQuery& query, const Odometers& odometers,
+                         const RegionBatch& regions, AnswerBatch& answers) {
+  test_regions<Nested>(query, odometers, regions, answers);
+}
+
+void test_own_regions_plain(const ViewQuery& query, const Odometers& odometers,
+                            const RegionBatch& regions, AnswerBatch& answers) {
+  test_plain<Own>(query, odometers, regions, answers);
+}
+
+void test_nested_regions_plain(const ViewQuery& query, const Odometers& odometers,
+                               const RegionBatch& regions, AnswerBatch& answers) {
+  test_plain<Nested>(query, odometers, regions, answers);
+}
 
 }  // namespace varifold

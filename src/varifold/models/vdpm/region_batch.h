@@ -1,34 +1,41 @@
 // Many regions asked at once: eight lanes of the same arithmetic.
 #pragma once
 
+#include <varifold/models/vdpm/odometers.h>
+#include <varifold/models/vdpm/step_bounds.h>
 #include <varifold/models/vdpm/view_query.h>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
 namespace varifold {
 
-/// Regions as they lie in a model, one per lane: codes of cone_code.h and error_code.h.
+/// Regions as they lie in a model, one per lane; every lane must be set.
 struct RegionBatch {
   static constexpr std::size_t kSize = 8;
-  alignas(32) float x[kSize], y[kSize], z[kSize];  ///< centres
-  alignas(32) std::uint32_t cone[kSize];
-  alignas(32) float cosine[kSize];  ///< of the cone's angle; at most 0: tells nothing
-  alignas(32) float radius[kSize], mu[kSize], delta[kSize], keep[kSize];
+  std::array<const PackedBounds*, kSize> bounds{};
+  std::array<const Vec3*, kSize> centers{};
+  std::array<float, kSize> keep{};  ///< 0 for nested regions
 };
 
-/// Their answers: as ViewQuery::test() of each, to the bit.
+/// Their answers: asked, and the keys, as ViewQuery::test() and Odometers::key() give them, to the
+/// bit.
 struct AnswerBatch {
-  alignas(32) float slack[RegionBatch::kSize];
-  alignas(32) std::int32_t asked[RegionBatch::kSize], mover[RegionBatch::kSize];
-
-  [[nodiscard]] ViewAnswer at(std::size_t i) const {
-    return {asked[i] != 0, static_cast<Mover>(mover[i]), slack[i]};
-  }
+  alignas(32) std::array<float, RegionBatch::kSize> keys;
+  std::uint32_t asked;  ///< a bit for every lane
 };
 
-/// With vector instructions where the processor has them.
-void test_regions(const ViewQuery& query, const RegionBatch& regions, AnswerBatch& answers);
-/// Without; the same results.
-void test_regions_plain(const ViewQuery& query, const RegionBatch& regions, AnswerBatch& answers);
+/// Asks for what steps change themselves.
+void test_own_regions(const ViewQuery& query, const Odometers& odometers,
+                      const RegionBatch& regions, AnswerBatch& answers);
+/// For what they and all below them in the watch tree change.
+void test_nested_regions(const ViewQuery& query, const Odometers& odometers,
+                         const RegionBatch& regions, AnswerBatch& answers);
+
+/// Without vector instructions; the same results.
+void test_own_regions_plain(const ViewQuery& query, const Odometers& odometers,
+                            const RegionBatch& regions, AnswerBatch& answers);
+void test_nested_regions_plain(const ViewQuery& query, const Odometers& odometers,
+                               const RegionBatch& regions, AnswerBatch& answers);
 
 }  // namespace varifold

@@ -45,6 +45,14 @@ struct StepBounds {
 };
 static_assert(sizeof(StepBounds) == 20);
 
+/// StepBounds without the vertex, which the level table of a model has: as they lie in memory.
+struct PackedBounds {
+  std::uint32_t cone = 0;
+  std::uint16_t radius = 0, nested_radius = 0, mu = 0, delta = 0, nested_error = 0,
+                nested_angle = 0;
+};
+static_assert(sizeof(PackedBounds) == 16);
+
 struct StepBoundsOptions {
   int threads = 0;  ///< 0 = all; the result does not depend on it
   Progress progress;

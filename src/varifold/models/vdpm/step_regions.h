@@ -9,13 +9,13 @@ namespace varifold {
 
 /// Of the angles of a step's cones, without their axis: as unpack_cone() and nested_cone() have
 /// them.
-[[nodiscard]] inline float own_cosine(const StepBounds& bounds) {
-  const float part = static_cast<float>(bounds.cone & 1023u) / cone_code::kAngleSteps;
+[[nodiscard]] inline float own_cosine(std::uint32_t cone) {
+  const float part = static_cast<float>(cone & 1023u) / cone_code::kAngleSteps;
   return 1 - 2 * part * part;
 }
-[[nodiscard]] inline float nested_cosine(const StepBounds& bounds) {
-  if (bounds.nested_angle == StepBounds::kWide) return -1;
-  const float part = static_cast<float>(bounds.nested_angle) / step_bounds::kAngleSteps;
+[[nodiscard]] inline float nested_cosine(std::uint32_t nested_angle) {
+  static_assert(StepBounds::kWide > step_bounds::kAngleSteps);  // below 0: tells nothing
+  const float part = static_cast<float>(nested_angle) / step_bounds::kAngleSteps;
   return 1 - part * part;
 }
 

@@ -23,13 +23,6 @@
 
 namespace varifold {
 
-/// StepBounds without the vertex, which the level table has.
-struct PackedBounds {
-  std::uint32_t cone = 0;
-  std::uint16_t radius = 0, nested_radius = 0, mu = 0, delta = 0, nested_error = 0,
-                nested_angle = 0;
-};
-
 /// The parts of the model, plain data.
 struct ViewDependentMeshData {
   TriangleMesh mesh;  ///< vertex attributes at full detail, materials, images, ranges
@@ -69,6 +62,9 @@ class ViewDependentMesh : public LevelQueries<ViewDependentMesh> {
     const PackedBounds& b = data_.bounds[step];
     return {first_vertex(step), b.cone,        b.radius, b.nested_radius, b.mu, b.delta,
             b.nested_error,     b.nested_angle};
+  }
+  [[nodiscard]] const PackedBounds& packed_bounds(std::uint32_t step) const {
+    return data_.bounds[step];
   }
   /// Of both balls: where the split puts the step's point.
   [[nodiscard]] const Vec3& center(std::uint32_t step) const {

@@ -46,27 +46,21 @@ ViewFront::ViewFront(const ViewDependentMesh& model)
 std::uint32_t ViewFront::add_slot(std::uint32_t step, std::uint8_t flags) {
   const auto slot = slot_count();
   slot_of_[step] = slot;
-  steps_.push_back(step);
+  slots_.push_back({step, 0, flags});
   keys_.push_back(odometers_.key(Mover::kNothing, 0));
-  dependents_.push_back(0);
-  flags_.push_back(flags);
   return slot;
 }
 
 void ViewFront::remove_slot(std::uint32_t slot) {
   const std::uint32_t last = slot_count() - 1;
-  slot_of_[steps_[slot]] = kNone;
+  slot_of_[slots_[slot].step] = kNone;
   if (slot != last) {
-    steps_[slot] = steps_[last];
+    slots_[slot] = slots_[last];
     keys_[slot] = keys_[last];
-    dependents_[slot] = dependents_[last];
-    flags_[slot] = flags_[last];
-    slot_of_[steps_[slot]] = slot;
+    slot_of_[slots_[slot].step] = slot;
   }
-  steps_.pop_back();
+  slots_.pop_back();
   keys_.pop_back();
-  dependents_.pop_back();
-  flags_.pop_back();
 }
 
 FrontStatistics ViewFront::adapt(ActiveSurface& surface, const RefineCriteria& criteria,
@@ -111,29 +105,28 @@ bool ViewFront::begin_frame(const RefineCriteria& criteria, float tolerance) {
   return moved;
 }
 
-// The slots that a frame begins with.
+// What a frame begins with.
 void ViewFront::find_due(const FrontLimits& limits) {
   if (limits.schedule == FrontSchedule::kDue) {
-    find_due_keys(keys_, odometers_, slots_);
+    for (const std::uint32_t slot : find_due_keys(keys_, odometers_, room_)) sort(slot);
   } else {
     const float part = limits.schedule == FrontSchedule::kAll
                            ? 1.0f
                            : std::clamp(limits.amortized_part, 0.0f, 1.0f);
     const auto count =
         static_cast<std::uint32_t>(std::ceil(part * static_cast<float>(slot_count())));
-    slots_.clear();
     for (std::uint32_t i = 0; i < std::min(count, slot_count()); ++i) {
       if (window_ >= slot_count()) window_ = 0;
-      slots_.push_back(window_++);
+      sort(window_++);
     }
   }
   take_due();
 }
 
-// The slots of the steps that have become due, behind those that are there.
+// The steps that have become due.
 void ViewFront::take_due() {
   for (const std::uint32_t step : due_)
-    if (slot_of_[step] != kNone) slots_.push_back(slot_of_[step]);
+    if (slot_of_[step] != kNone) sort(slot_of_[step]);
   due_.clear();
 }
 
@@ -141,99 +134,89 @@ void ViewFront::take_due() {
 // by keys; then come the collapses, and when nothing is due any more the splits, which make other
 // steps due. Slots keep their places until the collapses.
 void ViewFront::settle(Frame& frame) {
-  asked_.clear();
-  while (!slots_.empty() || !asked_.empty()) {
-    while (!slots_.empty()) {
-      sort_due();
+  while (!nested_.slots.empty() || !own_.slots.empty() || !leaving_.empty() || !asked_.empty()) {
+    while (!nested_.slots.empty() || !own_.slots.empty() || !leaving_.empty()) {
       ask_nested(frame);
       ask_own(frame);
       for (const std::uint32_t step : leaving_) collapse(step, frame);
-      slots_.clear();
+      leaving_.clear();
       take_due();
     }
     // All that are asked are known by now: of those split along with them the others are forced.
-    for (const std::uint32_t step : asked_) flags_[slot_of_[step]] |= kAsked;
+    for (const std::uint32_t step : asked_) slots_[slot_of_[step]].flags |= kAsked;
     for (const std::uint32_t step : asked_)
       if (!is_split(step)) split(step, frame);
     for (const std::uint32_t step : asked_)
-      flags_[slot_of_[step]] &= static_cast<std::uint8_t>(~kAsked);
+      slots_[slot_of_[step]].flags &= static_cast<std::uint8_t>(~kAsked);
     asked_.clear();
     take_due();
   }
   tend();
 }
 
-// Sorts the slots that are due: to nested_ those whose subtrees are in question, to own_ those that
-// are themselves, to leaving_ those that nothing wants any more.
-void ViewFront::sort_due() {
-  nested_.clear();
-  own_.clear();
-  leaving_.clear();
-  for (const std::uint32_t slot : slots_) {
-    if ((flags_[slot] & kWatched) == 0) {
-      // Only others can want it: its parent is not asked, so nor is it.
-      keep_key(slot, kNever);
-      if (dependents_[slot] == 0) leaving_.push_back(steps_[slot]);
-    } else if ((flags_[slot] & kExpanded) == 0) {
-      model_->prefetch_bounds(steps_[slot]);
-      nested_.push_back(slot);
-    } else {
-      enter_own(slot);
-    }
-  }
-}
-
-void ViewFront::enter_own(std::uint32_t slot) {
-  if ((flags_[slot] & kSplit) != 0 && dependents_[slot] != 0) {
+// A slot that is due goes to nested_ if its subtree is in question, to own_ if it is itself, to
+// leaving_ if nothing wants it any more.
+void ViewFront::sort(std::uint32_t slot) {
+  const Slot& at = slots_[slot];
+  if ((at.flags & kWatched) == 0) {
+    // Only others can want it: its parent is not asked, so nor is it.
+    keep_key(slot, kNever);
+    if (at.dependents == 0) leaving_.push_back(at.step);
+  } else if ((at.flags & kSplit) != 0 && (at.flags & kExpanded) != 0 && at.dependents != 0) {
     keep_key(slot, kNever);  // until they are gone
   } else {
-    model_->prefetch_bounds(steps_[slot]);
-    own_.push_back(slot);
+    model_->prefetch_bounds(at.step);
+    ((at.flags & kExpanded) == 0 ? nested_ : own_).add(slot, at.step);
   }
 }
 
 // Is any step of the subtree asked? If so its children are watched from now on.
 void ViewFront::ask_nested(Frame& frame) {
-  frame.statistics.tests += static_cast<std::uint32_t>(nested_.size());
-  question_.nested(*model_, steps_, nested_, answers_);
-  for (std::size_t i = 0; i < nested_.size(); ++i) {
-    const std::uint32_t slot = nested_[i];
-    if ((flags_[slot] & kExpanded) != 0) continue;  // it was due twice
-    if (answers_[i].asked) {
+  frame.statistics.tests += static_cast<std::uint32_t>(nested_.slots.size());
+  question_.nested(*model_, odometers_, nested_.steps, answers_);
+  for (std::size_t i = 0; i < nested_.slots.size(); ++i) {
+    const std::uint32_t slot = nested_.slots[i];
+    if ((slots_[slot].flags & kExpanded) != 0) continue;  // it was due twice
+    if (answers_.asked[i] != 0) {
       expand(slot);
-      enter_own(slot);
+      sort(slot);
     } else {
-      keep_key(slot, answers_[i]);
-      if ((flags_[slot] & kSplit) != 0 && dependents_[slot] == 0) leaving_.push_back(steps_[slot]);
+      keys_[slot] = answers_.keys[i];
+      const Slot& at = slots_[slot];
+      if ((at.flags & kSplit) != 0 && at.dependents == 0) leaving_.push_back(at.step);
     }
   }
+  nested_.clear();
 }
 
 // Is the step itself asked?
 void ViewFront::ask_own(Frame& frame) {
-  frame.statistics.tests += static_cast<std::uint32_t>(own_.size());
+  frame.statistics.tests += static_cast<std::uint32_t>(own_.slots.size());
   keep_.clear();
-  for (const std::uint32_t slot : own_)
-    keep_.push_back((flags_[slot] & kSplit) != 0 ? frame.limits.hysteresis : 0.0f);
-  question_.own(*model_, steps_, own_, keep_, answers_);
-  for (std::size_t i = 0; i < own_.size(); ++i) {
-    const std::uint32_t slot = own_[i];
+  if (frame.limits.hysteresis > 0)
+    for (const std::uint32_t slot : own_.slots)
+      keep_.push_back((slots_[slot].flags & kSplit) != 0 ? frame.limits.hysteresis : 0.0f);
+  question_.own(*model_, odometers_, own_.steps, keep_, answers_);
+  for (std::size_t i = 0; i < own_.slots.size(); ++i) {
+    const std::uint32_t slot = own_.slots[i];
     // A key that was found with hysteresis comes no later than it should without.
-    keep_key(slot, answers_[i]);
-    const bool is_split = (flags_[slot] & kSplit) != 0;
-    if (answers_[i].asked == is_split) continue;
-    model_->prefetch_record(steps_[slot]);
-    (is_split ? leaving_ : asked_).push_back(steps_[slot]);
+    keys_[slot] = answers_.keys[i];
+    const Slot& at = slots_[slot];
+    const bool is_split = (at.flags & kSplit) != 0;
+    if ((answers_.asked[i] != 0) == is_split) continue;
+    model_->prefetch_record(at.step);
+    (is_split ? leaving_ : asked_).push_back(at.step);
   }
+  own_.clear();
 }
 
 void ViewFront::expand(std::uint32_t slot) {
-  flags_[slot] |= kExpanded;
-  model_->for_each_watched(steps_[slot], [&](std::uint32_t child) {
+  slots_[slot].flags |= kExpanded;
+  model_->for_each_watched(slots_[slot].step, [&](std::uint32_t child) {
     if (slot_of_[child] == kNone)
       add_slot(child, kWatched);
     else
-      flags_[slot_of_[child]] |= kWatched;
+      slots_[slot_of_[child]].flags |= kWatched;
     due_.push_back(child);
   });
 }
@@ -241,7 +224,7 @@ void ViewFront::expand(std::uint32_t slot) {
 bool ViewFront::has_expanded_child(std::uint32_t step) const {
   bool found = false;
   model_->for_each_watched(step, [&](std::uint32_t child) {
-    found = found || (flags_[slot_of_[child]] & kExpanded) != 0;
+    found = found || (slots_[slot_of_[child]].flags & kExpanded) != 0;
   });
   return found;
 }
@@ -250,17 +233,18 @@ bool ViewFront::has_expanded_child(std::uint32_t step) const {
 // done soon or late changes no front; it keeps the slots few. A step's parent in the watch tree is
 // the greatest of those that it requires, so that it may follow.
 bool ViewFront::close(std::uint32_t slot) {
-  const std::uint32_t step = steps_[slot];
-  if ((flags_[slot] & (kExpanded | kSplit)) != kExpanded || has_expanded_child(step)) return false;
+  const std::uint32_t step = slots_[slot].step;
+  if ((slots_[slot].flags & (kExpanded | kSplit)) != kExpanded || has_expanded_child(step))
+    return false;
   const ViewAnswer answer = question_.nested(model_->bounds(step), model_->center(step));
   if (answer.asked) return false;
-  flags_[slot] &= static_cast<std::uint8_t>(~kExpanded);
+  slots_[slot].flags &= static_cast<std::uint8_t>(~kExpanded);
   keep_key(slot, answer);
   model_->for_each_watched(step, [&](std::uint32_t child) {
     const std::uint32_t at = slot_of_[child];
-    flags_[at] &= static_cast<std::uint8_t>(~kWatched);
+    slots_[at].flags &= static_cast<std::uint8_t>(~kWatched);
     keep_key(at, kNever);
-    if ((flags_[at] & kSplit) == 0) remove_slot(at);
+    if ((slots_[at].flags & kSplit) == 0) remove_slot(at);
   });
   return true;
 }
@@ -270,7 +254,7 @@ void ViewFront::tend() {
   const std::uint32_t count = std::min(slot_count(), kTendedPerFrame + slot_count() / 512);
   for (std::uint32_t i = 0; i < count; ++i) {
     if (window_ >= slot_count()) window_ = 0;
-    std::uint32_t step = steps_[window_++];
+    std::uint32_t step = slots_[window_++].step;
     while (step != kNone && close(slot_of_[step])) {
       std::uint32_t parent = kNone;
       model_->for_each_required(step, [&](std::uint32_t required) {
@@ -284,7 +268,7 @@ void ViewFront::tend() {
 // A step that is to be split before another one; once.
 void ViewFront::gather(std::uint32_t step) {
   if (slot_of_[step] == kNone) add_slot(step, 0);
-  std::uint8_t& flags = flags_[slot_of_[step]];
+  std::uint8_t& flags = slots_[slot_of_[step]].flags;
   if ((flags & (kSplit | kGathered)) != 0) return;
   flags |= kGathered;
   required_.push_back(step);
@@ -308,8 +292,8 @@ std::uint32_t ViewFront::gather_required(std::uint32_t step) {
 void ViewFront::let_go() {
   for (const std::uint32_t step : required_) {
     const std::uint32_t slot = slot_of_[step];
-    flags_[slot] &= static_cast<std::uint8_t>(~kGathered);
-    if (flags_[slot] == 0) remove_slot(slot);
+    slots_[slot].flags &= static_cast<std::uint8_t>(~kGathered);
+    if (slots_[slot].flags == 0) remove_slot(slot);
   }
 }
 
@@ -327,7 +311,7 @@ void ViewFront::split(std::uint32_t step, Frame& frame) {
 }
 
 void ViewFront::split_one(std::uint32_t step, Frame& frame) {
-  std::uint8_t& flags = flags_[slot_of_[step]];
+  std::uint8_t& flags = slots_[slot_of_[step]].flags;
   flags = static_cast<std::uint8_t>((flags & ~kGathered) | kSplit);
   if (frame.morphs != nullptr)
     frame.morphs->split(step);
@@ -338,7 +322,7 @@ void ViewFront::split_one(std::uint32_t step, Frame& frame) {
   model_->for_each_required(step, [&](std::uint32_t required) {
     const std::uint32_t at = slot_of_[required];
     // Only its subtree can still fall due, if that is not expanded.
-    if (dependents_[at]++ == 0 && (flags_[at] & (kWatched | kExpanded)) != kWatched)
+    if (slots_[at].dependents++ == 0 && (slots_[at].flags & (kWatched | kExpanded)) != kWatched)
       keep_key(at, kNever);
   });
 }
@@ -355,41 +339,36 @@ void ViewFront::collapse(std::uint32_t step, Frame& frame) {
     frame.surface.collapse(step);
   ++frame.statistics.collapses;
   const std::uint32_t slot = slot_of_[step];
-  flags_[slot] &= static_cast<std::uint8_t>(~kSplit);
+  slots_[slot].flags &= static_cast<std::uint8_t>(~kSplit);
   model_->for_each_required(step, [&](std::uint32_t required) {
-    if (--dependents_[slot_of_[required]] == 0) due_.push_back(required);
+    if (--slots_[slot_of_[required]].dependents == 0) due_.push_back(required);
   });
-  if ((flags_[slot] & kWatched) == 0) remove_slot(slot);
+  if ((slots_[slot].flags & kWatched) == 0) remove_slot(slot);
 }
 
 void ViewFront::set_level(std::uint32_t level) {
-  std::vector<std::uint32_t> slots(steps_);
-  for (const std::uint32_t step : slots) slot_of_[step] = kNone;
-  steps_.clear();
+  for (const Slot& slot : slots_) slot_of_[slot.step] = kNone;
+  slots_.clear();
   keys_.clear();
-  dependents_.clear();
-  flags_.clear();
   waiting_.clear();
   window_ = 0;
   has_question_ = false;
   for (std::uint32_t step = 0; step < level; ++step) {
     add_slot(step, kSplit);
-    model_->for_each_required(step, [&](std::uint32_t r) { ++dependents_[slot_of_[r]]; });
+    model_->for_each_required(step, [&](std::uint32_t r) { ++slots_[slot_of_[r]].dependents; });
   }
   for (const std::uint32_t root : model_->watch_roots()) {
     const std::uint32_t slot = slot_of_[root] != kNone ? slot_of_[root] : add_slot(root, 0);
-    flags_[slot] |= kWatched;
+    slots_[slot].flags |= kWatched;
   }
   std::fill(keys_.begin(), keys_.end(), kAlways);
 }
 
 std::size_t ViewFront::bytes() const {
-  return keys_.capacity() * sizeof(float) + dependents_.capacity() * sizeof(std::uint16_t) +
-         flags_.capacity() + keep_.capacity() * sizeof(float) +
-         answers_.capacity() * sizeof(ViewAnswer) +
-         (steps_.capacity() + slot_of_.capacity() + slots_.capacity() + due_.capacity() +
-          leaving_.capacity() + nested_.capacity() + own_.capacity() + asked_.capacity() +
-          required_.capacity() + waiting_.capacity()) *
+  return (keys_.capacity() + keep_.capacity()) * sizeof(float) + slots_.capacity() * sizeof(Slot) +
+         answers_.bytes() + nested_.bytes() + own_.bytes() +
+         (slot_of_.capacity() + room_.capacity() + due_.capacity() + leaving_.capacity() +
+          asked_.capacity() + required_.capacity() + waiting_.capacity()) *
              sizeof(std::uint32_t);
 }
 

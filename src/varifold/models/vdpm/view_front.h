@@ -66,10 +66,10 @@ class ViewFront {
 
   [[nodiscard]] bool is_split(std::uint32_t step) const {
     const std::uint32_t slot = slot_of_[step];
-    return slot != kNone && (flags_[slot] & kSplit) != 0;
+    return slot != kNone && (slots_[slot].flags & kSplit) != 0;
   }
   [[nodiscard]] std::uint32_t slot_count() const {
-    return static_cast<std::uint32_t>(steps_.size());
+    return static_cast<std::uint32_t>(slots_.size());
   }
   /// For a surface that was brought to a uniform level: the steps below it are split. O(steps).
   void set_level(std::uint32_t level);
@@ -78,14 +78,34 @@ class ViewFront {
 
  private:
   enum Flag : std::uint8_t { kSplit = 1, kWatched = 2, kExpanded = 4, kGathered = 8, kAsked = 16 };
+  struct Slot {
+    std::uint32_t step;
+    std::uint16_t dependents;  // split steps that require the step
+    std::uint8_t flags;
+  };
+  // Slots to ask about, and their steps.
+  struct SlotList {
+    std::vector<std::uint32_t> slots, steps;
+
+    void clear() {
+      slots.clear();
+      steps.clear();
+    }
+    void add(std::uint32_t slot, std::uint32_t step) {
+      slots.push_back(slot);
+      steps.push_back(step);
+    }
+    [[nodiscard]] std::size_t bytes() const {
+      return (slots.capacity() + steps.capacity()) * sizeof(std::uint32_t);
+    }
+  };
   struct Frame;
 
   [[nodiscard]] bool begin_frame(const RefineCriteria& criteria, float tolerance);
   void find_due(const FrontLimits& limits);
   void settle(Frame& frame);
   void take_due();
-  void sort_due();
-  void enter_own(std::uint32_t slot);
+  void sort(std::uint32_t slot);
   void ask_nested(Frame& frame);
   void ask_own(Frame& frame);
   [[nodiscard]] bool close(std::uint32_t slot);
@@ -112,17 +132,15 @@ class ViewFront {
 
   // Per slot.
   std::vector<float> keys_;
-  std::vector<std::uint32_t> steps_;
-  std::vector<std::uint16_t> dependents_;  // split steps that require the step
-  std::vector<std::uint8_t> flags_;
+  std::vector<Slot> slots_;
   std::vector<std::uint32_t> slot_of_;  // per step
 
-  // At work: slots, ...
-  std::vector<std::uint32_t> slots_, nested_, own_;
-  // ... and steps.
-  std::vector<std::uint32_t> due_, leaving_, asked_, required_;
-  std::vector<float> keep_;  // per entry of own_
-  std::vector<ViewAnswer> answers_;
+  // At work.
+  SlotList nested_, own_;
+  std::vector<std::uint32_t> room_;                              // of key_scan.h
+  std::vector<std::uint32_t> due_, leaving_, asked_, required_;  // steps
+  std::vector<float> keep_;  // per entry of own_, with hysteresis
+  FrontAnswers answers_;
   std::vector<std::uint32_t> waiting_;  // due again in the next frame
 };
 
