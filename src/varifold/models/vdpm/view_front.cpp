@@ -108,13 +108,16 @@ bool ViewFront::begin_frame(const RefineCriteria& criteria, float tolerance) {
 // What a frame begins with.
 void ViewFront::find_due(const FrontLimits& limits) {
   if (limits.schedule == FrontSchedule::kDue) {
-    for (const std::uint32_t slot : find_due_keys(keys_, odometers_, room_)) sort(slot);
+    const auto due = find_due_keys(keys_, odometers_, room_);
+    make_room(due.size());
+    for (const std::uint32_t slot : due) sort(slot);
   } else {
     const float part = limits.schedule == FrontSchedule::kAll
                            ? 1.0f
                            : std::clamp(limits.amortized_part, 0.0f, 1.0f);
     const auto count =
         static_cast<std::uint32_t>(std::ceil(part * static_cast<float>(slot_count())));
+    make_room(slot_count());
     for (std::uint32_t i = 0; i < std::min(count, slot_count()); ++i) {
       if (window_ >= slot_count()) window_ = 0;
       sort(window_++);
@@ -125,6 +128,7 @@ void ViewFront::find_due(const FrontLimits& limits) {
 
 // The steps that have become due.
 void ViewFront::take_due() {
+  make_room(due_.size());
   for (const std::uint32_t step : due_)
     if (slot_of_[step] != kNone) sort(slot_of_[step]);
   due_.clear();
@@ -134,8 +138,8 @@ void ViewFront::take_due() {
 // by keys; then come the collapses, and when nothing is due any more the splits, which make other
 // steps due. Slots keep their places until the collapses.
 void ViewFront::settle(Frame& frame) {
-  while (!nested_.slots.empty() || !own_.slots.empty() || !leaving_.empty() || !asked_.empty()) {
-    while (!nested_.slots.empty() || !own_.slots.empty() || !leaving_.empty()) {
+  while (!nested_.empty() || !own_.empty() || !leaving_.empty() || !asked_.empty()) {
+    while (!nested_.empty() || !own_.empty() || !leaving_.empty()) {
       ask_nested(frame);
       ask_own(frame);
       for (const std::uint32_t step : leaving_) collapse(step, frame);
@@ -162,19 +166,26 @@ void ViewFront::sort(std::uint32_t slot) {
     // Only others can want it: its parent is not asked, so nor is it.
     keep_key(slot, kNever);
     if (at.dependents == 0) leaving_.push_back(at.step);
-  } else if ((at.flags & kSplit) != 0 && (at.flags & kExpanded) != 0 && at.dependents != 0) {
-    keep_key(slot, kNever);  // until they are gone
-  } else {
-    model_->prefetch_bounds(at.step);
-    ((at.flags & kExpanded) == 0 ? nested_ : own_).add(slot, at.step);
+    return;
   }
+  const bool is_expanded = (at.flags & kExpanded) != 0;
+  const bool is_held = is_expanded & ((at.flags & kSplit) != 0) & (at.dependents != 0);
+  if (is_held) keep_key(slot, kNever);  // until they are gone
+  model_->prefetch_bounds(at.step);
+  nested_.add_if(!is_expanded, slot, at.step);
+  own_.add_if(is_expanded & !is_held, slot, at.step);
+}
+
+void ViewFront::make_room(std::size_t more) {
+  nested_.make_room(more);
+  own_.make_room(nested_.count + more);  // those of nested_ may follow
 }
 
 // Is any step of the subtree asked? If so its children are watched from now on.
 void ViewFront::ask_nested(Frame& frame) {
-  frame.statistics.tests += static_cast<std::uint32_t>(nested_.slots.size());
-  question_.nested(*model_, odometers_, nested_.steps, answers_);
-  for (std::size_t i = 0; i < nested_.slots.size(); ++i) {
+  frame.statistics.tests += static_cast<std::uint32_t>(nested_.count);
+  question_.nested(*model_, odometers_, nested_.all_steps(), answers_);
+  for (std::size_t i = 0; i < nested_.count; ++i) {
     const std::uint32_t slot = nested_.slots[i];
     if ((slots_[slot].flags & kExpanded) != 0) continue;  // it was due twice
     if (answers_.asked[i] != 0) {
@@ -186,18 +197,18 @@ void ViewFront::ask_nested(Frame& frame) {
       if ((at.flags & kSplit) != 0 && at.dependents == 0) leaving_.push_back(at.step);
     }
   }
-  nested_.clear();
+  nested_.count = 0;
 }
 
 // Is the step itself asked?
 void ViewFront::ask_own(Frame& frame) {
-  frame.statistics.tests += static_cast<std::uint32_t>(own_.slots.size());
+  frame.statistics.tests += static_cast<std::uint32_t>(own_.count);
   keep_.clear();
   if (frame.limits.hysteresis > 0)
-    for (const std::uint32_t slot : own_.slots)
-      keep_.push_back((slots_[slot].flags & kSplit) != 0 ? frame.limits.hysteresis : 0.0f);
-  question_.own(*model_, odometers_, own_.steps, keep_, answers_);
-  for (std::size_t i = 0; i < own_.slots.size(); ++i) {
+    for (std::size_t i = 0; i < own_.count; ++i)
+      keep_.push_back((slots_[own_.slots[i]].flags & kSplit) != 0 ? frame.limits.hysteresis : 0);
+  question_.own(*model_, odometers_, own_.all_steps(), keep_, answers_);
+  for (std::size_t i = 0; i < own_.count; ++i) {
     const std::uint32_t slot = own_.slots[i];
     // A key that was found with hysteresis comes no later than it should without.
     keys_[slot] = answers_.keys[i];
@@ -207,7 +218,7 @@ void ViewFront::ask_own(Frame& frame) {
     model_->prefetch_record(at.step);
     (is_split ? leaving_ : asked_).push_back(at.step);
   }
-  own_.clear();
+  own_.count = 0;
 }
 
 void ViewFront::expand(std::uint32_t slot) {

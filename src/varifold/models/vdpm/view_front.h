@@ -86,15 +86,22 @@ class ViewFront {
   // Slots to ask about, and their steps.
   struct SlotList {
     std::vector<std::uint32_t> slots, steps;
+    std::size_t count = 0;
 
-    void clear() {
-      slots.clear();
-      steps.clear();
+    // Counts the slot only if it `counts`, without a branch. There must be room.
+    void add_if(bool counts, std::uint32_t slot, std::uint32_t step) {
+      slots[count] = slot;
+      steps[count] = step;
+      count += counts ? 1 : 0;
     }
-    void add(std::uint32_t slot, std::uint32_t step) {
-      slots.push_back(slot);
-      steps.push_back(step);
+    // For so many more slots and one that does not count.
+    void make_room(std::size_t more) {
+      if (slots.size() > count + more) return;
+      slots.resize(2 * (count + more) + 1);
+      steps.resize(slots.size());
     }
+    [[nodiscard]] bool empty() const { return count == 0; }
+    [[nodiscard]] std::span<const std::uint32_t> all_steps() const { return {steps.data(), count}; }
     [[nodiscard]] std::size_t bytes() const {
       return (slots.capacity() + steps.capacity()) * sizeof(std::uint32_t);
     }
@@ -106,6 +113,7 @@ class ViewFront {
   void settle(Frame& frame);
   void take_due();
   void sort(std::uint32_t slot);
+  void make_room(std::size_t more);
   void ask_nested(Frame& frame);
   void ask_own(Frame& frame);
   [[nodiscard]] bool close(std::uint32_t slot);
