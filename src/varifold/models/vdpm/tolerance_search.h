@@ -69,6 +69,7 @@ FrontStatistics ToleranceSearch::fit(const AdaptOptions& options, float band, co
     return run(tolerance_of(std::max(options.tolerance, 1e-9f), step));
   };
   // Steps up to too_fine do not fit, those from `fits` on do.
+  const double aim = 0.5 * static_cast<double>(band);  // the middle of what may stay unused
   std::int32_t too_fine = -1, fits = kLastStep + 1, step = step_, jump = 1;
   FrontStatistics last, best;
   std::int32_t last_step = step;
@@ -78,14 +79,14 @@ FrontStatistics ToleranceSearch::fit(const AdaptOptions& options, float band, co
     if (last.waiting > last.refused) return last;  // no more is to be done now
     if (last.refused > 0 || last.triangles > options.max_triangles) {
       too_fine = step;
-      step = fits <= kLastStep ? (step + fits) / 2 : std::min(kLastStep, step + 8 * jump);
+      step = fits <= kLastStep ? (step + fits) / 2 : std::min(kLastStep, step + jump);
     } else {
       if (fits <= kLastStep) learn(fits, step, best.triangles, last.triangles);
       fits = step;
       best = last;
       const double unused = std::log(wanted / std::max(1.0, static_cast<double>(last.triangles)));
       if (step == 0 || unused < static_cast<double>(band)) break;
-      step = std::max(step - std::max(finer_by(unused), jump), (too_fine + step) / 2);
+      step = std::max(step - std::max(finer_by(unused - aim), jump), (too_fine + step) / 2);
     }
     if (fits - too_fine == 1 || too_fine == kLastStep) break;
     step = std::clamp(step, too_fine + 1, std::min(fits - 1, kLastStep));
