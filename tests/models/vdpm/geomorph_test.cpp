@@ -3,9 +3,12 @@
 #include <tests/models/vdpm/vdpm_support.h>
 
 #include <varifold/mesh/weld.h>
+#include <varifold/models/vdpm/odometers.h>
+#include <varifold/models/vdpm/step_regions.h>
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -84,11 +87,13 @@ class Simulation {
   /// Some morph turned round in the last frame.
   [[nodiscard]] int turns() const { return turns_; }
 
-  void next() {
+  /// `seen` by what the criteria of the frame ask; says what the next frame may do at once.
+  void next(const RefineCriteria& criteria) {
     const auto frames = static_cast<int>(frames_);
     const std::vector<Vec3> before = at_;
     reach_.assign(count_, 0);
     find_touched();
+    std::vector<int> begun = phase_;  // with what each vertex begins the frame
     for (std::uint32_t v = 0; v < count_; ++v) {
       const std::uint32_t target = still_.model().levels().target(v);
       const bool stays = step_of_[v] == kNone || still_.is_split(step_of_[v]);
@@ -100,11 +105,18 @@ class Simulation {
       if (stays != stayed(v) && phase_[v] > 0 && phase_[v] < frames) ++turns_;
       if (stays) {
         const Vec3 goal = looks_of(v);
-        if (phase_[v] == 0) at_[v] = at_[target];
-        if (!stayed(v)) left_[v] = frames - phase_[v];
-        if (is_touched_[v]) left_[v] = frames;
+        const bool appears = phase_[v] == 0;
+        if (appears) at_[v] = at_[target];
+        if (!stayed(v)) {
+          if (!was_seen(step_of_[v]))
+            begun[v] = std::max(begun[v], first_phase(step_of_[v], begun));
+          phase_[v] = begun[v];
+          left_[v] = std::max(1, frames - phase_[v]);
+        }
+        if (touched_[v] == Touched::kSeen) left_[v] = frames;
+        if (touched_[v] == Touched::kUnseen) left_[v] = std::max(1, left_[v]);
         reach_[v] = glm::length(goal - at_[v]) / static_cast<float>(std::max(1, left_[v]));
-        if (phase_[v] == 0) reach_[v] += carried;
+        if (appears) reach_[v] += carried;
         if (left_[v] > 0) at_[v] += (goal - at_[v]) / static_cast<float>(left_[v]--);
         phase_[v] = std::min(phase_[v] + 1, frames);
         goes_[v] = false;
@@ -114,20 +126,38 @@ class Simulation {
         goes_[v] = true;
       }
     }
+    last_view_.reset();
+    Odometers any(still_.model().bounding_ball());
+    if (criteria.view) last_view_.emplace(*criteria.view, 1.0f, any.reach(criteria.view->eye, 1));
   }
 
  private:
+  enum class Touched : std::uint8_t { kNot, kUnseen, kSeen };
+
+  [[nodiscard]] bool was_seen(std::uint32_t step) const {
+    const ViewDependentMesh& model = still_.model();
+    return !last_view_ || last_view_->may_see(own_region(model.bounds(step), model.center(step)));
+  }
+  // As far as what the step requires is.
+  [[nodiscard]] int first_phase(std::uint32_t step, const std::vector<int>& begun) const {
+    auto phase = static_cast<int>(frames_);
+    still_.model().for_each_required(step, [&](std::uint32_t required) {
+      phase = std::min(phase, begun[still_.model().first_vertex(required)]);
+    });
+    return phase;
+  }
   [[nodiscard]] bool stayed(std::uint32_t v) const { return phase_[v] > 0 && !goes_[v]; }
   // Those that the placement of a step moves that has changed since the frame before.
   void find_touched() {
     const ViewDependentMeshData& data = still_.model().data();
-    is_touched_.assign(count_, false);
+    touched_.assign(count_, Touched::kNot);
     for (std::uint32_t step = 0; step < still_.model().step_count(); ++step) {
       if (was_split_[step] == still_.is_split(step)) continue;
       was_split_[step] = still_.is_split(step);
       if (!still_.model().moves_vertices()) continue;
+      const Touched how = was_seen(step) ? Touched::kSeen : Touched::kUnseen;
       for (std::uint32_t j = data.first_placed[step]; j < data.first_placed[step + 1]; ++j)
-        is_touched_[data.placed_vertex[j]] = true;
+        touched_[data.placed_vertex[j]] = std::max(touched_[data.placed_vertex[j]], how);
     }
   }
   [[nodiscard]] Vec3 looks_of(std::uint32_t v) const {
@@ -142,7 +172,8 @@ class Simulation {
   std::vector<Vec3> at_;
   std::vector<int> phase_, left_;
   std::vector<bool> goes_ = std::vector<bool>(count_, false);
-  std::vector<bool> is_touched_;
+  std::vector<Touched> touched_;
+  std::optional<ViewQuery> last_view_;
   std::vector<bool> was_split_ = std::vector<bool>(still_.model().step_count(), false);
   std::vector<float> reach_;
   int turns_ = 0;
@@ -178,7 +209,7 @@ TEST(FrontGeomorphs, MoveAsTheRuleSays) {
         const RefineCriteria criteria = camera.next();
         moving.adapt(criteria, {1, kNone}, with_morphs(frames));
         still.adapt(criteria, {1, kNone});
-        simulation.next();
+        simulation.next(criteria);
         const auto [most, wrong] = difference(moving, simulation);
         ASSERT_EQ(wrong, 0u) << named.name << ", frame " << frame << " of " << frames;
         ASSERT_LE(most, 1e-5f * model.bounding_ball().radius)
@@ -204,7 +235,7 @@ TEST(FrontGeomorphs, NoVertexMovesFurtherThanItsPart) {
       const RefineCriteria criteria = camera.next();
       moving.adapt(criteria, {1, kNone}, with_morphs(frames));
       still.adapt(criteria, {1, kNone});
-      simulation.next();
+      simulation.next(criteria);
       const ActiveVertices& vertices = moving.surface().vertices();
       const float rounding = 1e-5f * model.bounding_ball().radius;
       for (std::uint32_t v = 0; v < count; ++v) {
@@ -279,11 +310,13 @@ TEST(FrontGeomorphs, SeamsStayClosed) {
 TEST(FrontGeomorphs, WhatTurnsRoundTakesAsLongBack) {
   const NamedVdpm named = make_vdpm({"sphere", icosphere(5000)}, Placement::kKept);
   const Sphere ball = named.model->bounding_ball();
-  const RefineCriteria far = seen_from(ball, Vec3(4000, 0, 1)),
-                       near = seen_from(ball, Vec3(0, 1, 2));
+  // All of it is seen: nothing comes at once.
+  RefineCriteria far = seen_from(ball, Vec3(0, 30, 60)), near = seen_from(ball, Vec3(0, 1, 2));
+  far.view->back_weight = near.view->back_weight = 1;
   const AdaptOptions options{1, kNone};
   ViewDependentInstance instance(named.model);
-  const std::uint32_t base = instance.adapt(far, options, with_morphs(10)).triangles;
+  for (int frame = 0; frame < 10; ++frame) instance.adapt(far, options, with_morphs(10));
+  const std::uint32_t base = instance.triangle_count();
   for (int frame = 0; frame < 4; ++frame) instance.adapt(near, options, with_morphs(10));
   const std::uint32_t moving = instance.moving_vertices();
   EXPECT_GT(moving, 200u);
@@ -299,6 +332,21 @@ TEST(FrontGeomorphs, WhatTurnsRoundTakesAsLongBack) {
   for (int frame = 0; frame < 10; ++frame) instance.adapt(far, options, with_morphs(10));
   EXPECT_EQ(instance.moving_vertices(), 0u);
   EXPECT_EQ(instance.triangle_count(), base);
+}
+
+// What comes into the picture is where it belongs in the first frame that sees it.
+TEST(FrontGeomorphs, WhatNobodySawDoesNotSlide) {
+  const NamedVdpm named = make_vdpm({"sphere", icosphere(5000)}, Placement::kKept);
+  const Sphere ball = named.model->bounding_ball();
+  const AdaptOptions options{1, kNone};
+  ViewDependentInstance instance(named.model), still(named.model);
+  instance.adapt(seen_from(ball, Vec3(4000, 0, 1)), options, with_morphs(10));  // too far away
+  const RefineCriteria near = seen_from(ball, Vec3(0, 1, 2));
+  const FrontStatistics statistics = instance.adapt(near, options, with_morphs(10));
+  still.adapt(near, options);
+  EXPECT_GT(statistics.splits, 200u);
+  EXPECT_EQ(instance.moving_vertices(), 0u);
+  EXPECT_TRUE(same_bytes(instance.extract(), still.extract()));
 }
 
 TEST(FrontGeomorphs, LastAsManyFramesAsAreAskedForNow) {
@@ -376,7 +424,7 @@ TEST(FrontGeomorphs, OnlyWhatMovesTakesMemory) {
   ActiveSurface surface(*named.model);
   std::uint32_t changes = 0;
   for (std::uint32_t step = 0; step < 3000; step += 500) {
-    morphs.begin_frame(surface);
+    morphs.begin_frame(surface, nullptr);
     for (std::uint32_t k = step; k < step + 500; ++k, ++changes) morphs.split(k);
     morphs.advance(surface, 200, kNone);
   }

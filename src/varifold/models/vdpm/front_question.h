@@ -45,6 +45,7 @@ class FrontQuestion {
 
   /// Whether the answers may differ from those to `criteria` by more than the odometers can tell.
   [[nodiscard]] bool differs_in_kind(const RefineCriteria& criteria, float tolerance) const;
+  [[nodiscard]] bool has_view() const { return criteria_.view.has_value(); }
   [[nodiscard]] const ViewQuery& view() const { return view_; }
 
   /// Whether the view or a region asks for a step; for any step below it in the watch tree.

@@ -1,5 +1,6 @@
 #include <varifold/models/vdpm/geomorph.h>
 
+#include <varifold/models/vdpm/step_regions.h>
 #include <algorithm>
 #include <array>
 
@@ -55,7 +56,13 @@ void FrontGeomorphs::take_requests(const ActiveSurface& surface) {
   }
   // As the rule has it: attributes are those of the last to write them.
   for (std::size_t i = collapses; i-- > 0;) add_events(requests_[i], false);
-  for (const std::uint32_t step : arrived_) add_events(step, true);
+  phases_.clear();
+  for (const std::uint32_t step : arrived_) {
+    add_events(step, true);
+    const Morph* own = find(model_->first_vertex(step));
+    phases_.push_back(
+        std::max(events_.back().phase, own != nullptr ? own->phase : std::uint8_t{0}));
+  }
   requests_.clear();
   std::sort(events_.begin(), events_.end(), [](const Event& a, const Event& b) {
     return a.vertex != b.vertex ? a.vertex < b.vertex : a.order < b.order;
@@ -63,12 +70,45 @@ void FrontGeomorphs::take_requests(const ActiveSurface& surface) {
   merge_events(surface);
 }
 
+const FrontGeomorphs::Morph* FrontGeomorphs::find(std::uint32_t vertex) const {
+  const auto morph = std::lower_bound(morphs_.begin(), morphs_.end(), vertex, is_before);
+  return morph != morphs_.end() && morph->vertex == vertex ? &*morph : nullptr;
+}
+
+bool FrontGeomorphs::was_seen(std::uint32_t step) const {
+  return !has_last_view_ ||
+         last_view_.may_see(own_region(model_->bounds(step), model_->center(step)));
+}
+
+// Of a step that the front has split. Those of this frame that are before the one that asks are
+// known.
+std::uint8_t FrontGeomorphs::phase_of(std::uint32_t step) const {
+  const auto known = arrived_.begin() + static_cast<std::ptrdiff_t>(phases_.size());
+  const auto now = std::lower_bound(arrived_.begin(), known, step);
+  if (now != known && *now == step)
+    return phases_[static_cast<std::size_t>(now - arrived_.begin())];
+  const Morph* morph = find(model_->first_vertex(step));
+  return morph != nullptr ? morph->phase : static_cast<std::uint8_t>(frames_);
+}
+
+// Of a step that is split where nobody saw it: as far as what it requires is, so that the phase of
+// that is never lower.
+std::uint8_t FrontGeomorphs::first_phase(std::uint32_t step) const {
+  auto phase = static_cast<std::uint8_t>(frames_);
+  model_->for_each_required(
+      step, [&](std::uint32_t required) { phase = std::min(phase, phase_of(required)); });
+  return phase;
+}
+
 void FrontGeomorphs::add_events(std::uint32_t step, bool is_split) {
   const ViewDependentMeshData& data = model_->data();
   const std::uint32_t first = model_->first_vertex(step);
   const std::uint32_t count = model_->levels().step(step).vertices;
+  const bool seen = was_seen(step);
+  const std::uint8_t phase = is_split && !seen ? first_phase(step) : std::uint8_t{0};
   const auto add = [&](std::uint32_t vertex, std::uint32_t look, Change change) {
-    events_.push_back({vertex, static_cast<std::uint32_t>(events_.size()), step, look, change});
+    const auto order = static_cast<std::uint32_t>(events_.size());
+    events_.push_back({vertex, order, step, look, change, seen, phase});
   };
   for (std::uint32_t v = first; v < first + count; ++v) {
     const std::uint32_t look = data.first_look.empty() ? kNone : data.first_look[v];
@@ -124,6 +164,7 @@ void FrontGeomorphs::apply(const Event& event, const ActiveVertices& vertices, M
       morph.step = event.step;
       morph.goes = false;
       morph.goal = event.look;
+      morph.phase = std::max(morph.phase, event.phase);
       // Other numbers of frames may have brought one on its way out back to the last phase.
       morph.left = static_cast<std::uint8_t>(std::max(1u, frames_ - morph.phase));
       break;
@@ -135,7 +176,8 @@ void FrontGeomorphs::apply(const Event& event, const ActiveVertices& vertices, M
     case Change::kMoves:
       if (morph.goes) break;
       morph.goal = event.look;
-      morph.left = static_cast<std::uint8_t>(frames_);
+      morph.left = event.was_seen ? static_cast<std::uint8_t>(frames_)
+                                  : std::max<std::uint8_t>(morph.left, 1);
   }
 }
 
@@ -145,7 +187,7 @@ void FrontGeomorphs::keep_budget(const ActiveSurface& surface, std::uint32_t max
   std::uint32_t triangles = surface.triangle_count();
   for (const Morph& morph : morphs_) {
     if (morph.goes ? morph.vertex != model_->first_vertex(morph.step)
-                   : morph.phase > 0 || morph.vertex != model_->first_vertex(morph.step))
+                   : morph.slot != kNone || morph.vertex != model_->first_vertex(morph.step))
       continue;
     if (morph.goes)
       going[morph.phase] += levels.step(morph.step).triangles;
@@ -172,7 +214,7 @@ void FrontGeomorphs::move(ActiveSurface& surface) {
         arrived_.push_back(morph.step);
       continue;
     }
-    if (morph.phase == 0) {
+    if (morph.slot == kNone) {
       if (!vertices.is_active(morph.vertex)) surface.split_connectivity(morph.step);
       morph.slot = vertices.slot(morph.vertex);
       const std::uint32_t target = vertices.slot(model_->levels().target(morph.vertex));

@@ -7,6 +7,7 @@
 
 #include <varifold/models/vdpm/active_surface.h>
 #include <varifold/models/vdpm/view_dependent_mesh.h>
+#include <varifold/models/vdpm/view_query.h>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -19,6 +20,9 @@ namespace varifold {
 /// where its target is drawn first, and is removed when it is there. So the surface has the front's
 /// steps and those that are still on their way out: a front, too.
 ///
+/// What the view of the frame before did not see, outside its frustum or turned away, need not
+/// slide: such a split is at its place at once, or with what it requires and is still on its way.
+///
 /// Positions, texture coordinates and colours move in straight lines toward goals that may move
 /// themselves, normals keep a length of 1: in each frame a vertex covers the n-th part, of those
 /// left, of what is left. A morph that turns round takes as many frames back as it took so far.
@@ -26,7 +30,7 @@ namespace varifold {
 /// removed in an order that the rule allows. At rest for n frames, everything is where it would be
 /// without morphs, byte for byte.
 ///
-/// 20 bytes for each vertex that moves and 28 for each that changes in a frame, none for others.
+/// 20 bytes for each vertex that moves and 24 for each that changes in a frame, none for others.
 /// Allocates only where there are more of them than ever before.
 class FrontGeomorphs {
  public:
@@ -40,8 +44,11 @@ class FrontGeomorphs {
     return static_cast<std::uint32_t>(morphs_.size());
   }
   /// Before the changes of a frame; `surface` must be changed by advance() alone while any moves.
-  void begin_frame(const ActiveSurface& surface) {
+  /// `last_view`: of the frame before; null: all was seen.
+  void begin_frame(const ActiveSurface& surface, const ViewQuery* last_view) {
     if (morphs_.empty()) triangles_ = surface.triangle_count();
+    has_last_view_ = last_view != nullptr;
+    if (has_last_view_) last_view_ = *last_view;
   }
   /// Of the front, without what is on its way out.
   [[nodiscard]] std::uint32_t triangle_count() const { return triangles_; }
@@ -65,7 +72,8 @@ class FrontGeomorphs {
 
   [[nodiscard]] std::size_t bytes() const {
     return morphs_.capacity() * sizeof(Morph) + events_.capacity() * sizeof(Event) +
-           (requests_.capacity() + arrived_.capacity()) * sizeof(std::uint32_t);
+           (requests_.capacity() + arrived_.capacity()) * sizeof(std::uint32_t) +
+           phases_.capacity();
   }
 
  private:
@@ -83,13 +91,20 @@ class FrontGeomorphs {
     std::uint32_t vertex, order;
     std::uint32_t step, look;
     Change change;
+    bool was_seen;
+    std::uint8_t phase;  // that it appears with
   };
 
+  // The morph of a vertex, or null.
+  [[nodiscard]] const Morph* find(std::uint32_t vertex) const;
   [[nodiscard]] static bool is_before(const Morph& morph, std::uint32_t vertex) {
     return morph.vertex < vertex;
   }
   void set_frames(std::uint32_t frames);
   void take_requests(const ActiveSurface& surface);
+  [[nodiscard]] bool was_seen(std::uint32_t step) const;
+  [[nodiscard]] std::uint8_t phase_of(std::uint32_t step) const;
+  [[nodiscard]] std::uint8_t first_phase(std::uint32_t step) const;
   void add_events(std::uint32_t step, bool is_split);
   void merge_events(const ActiveSurface& surface);
   [[nodiscard]] std::size_t count_new() const;
@@ -103,7 +118,10 @@ class FrontGeomorphs {
   std::vector<Morph> morphs_;            // by vertex, ascending: targets before what slides to them
   std::vector<std::uint32_t> requests_;  // steps that change
   std::vector<Event> events_;
-  std::vector<std::uint32_t> arrived_;  // steps to be removed
+  std::vector<std::uint32_t> arrived_;  // steps to be removed; before that, steps that are split,
+  std::vector<std::uint8_t> phases_;    // and what they begin with
+  ViewQuery last_view_;
+  bool has_last_view_ = false;
 };
 
 }  // namespace varifold

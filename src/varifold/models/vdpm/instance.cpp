@@ -33,7 +33,7 @@ FrontStatistics ViewDependentInstance::adapt(const RefineCriteria& criteria,
   level_ = kNone;
   const bool has_morphs = limits.morph_frames > 1 || morphs_.moving_vertices() > 0;
   FrontGeomorphs* const morphs = has_morphs ? &morphs_ : nullptr;
-  if (has_morphs) morphs_.begin_frame(surface_);
+  if (has_morphs) morphs_.begin_frame(surface_, front_.last_view());
   AdaptOptions budget = options;
   budget.max_triangles = std::max(options.max_triangles, model_->triangle_count(0));
   FrontStatistics statistics = options.max_triangles == kNone

@@ -127,61 +127,53 @@ void test_plain(const ViewQuery& query, const Odometers& odometers, const Region
 
 #if defined(__x86_64__)
 
-// Columns of four rows of four words, for two such blocks at once.
-struct Columns {
-  __m256 column[4];
-};
-__attribute__((target("avx2"))) inline Columns transposed(__m256 a, __m256 b, __m256 c, __m256 d) {
-  const __m256 ab_low = _mm256_unpacklo_ps(a, b), ab_high = _mm256_unpackhi_ps(a, b);
-  const __m256 cd_low = _mm256_unpacklo_ps(c, d), cd_high = _mm256_unpackhi_ps(c, d);
-  const auto low = [](__m256 p, __m256 q) __attribute__((target("avx2"))) {
-    return _mm256_castpd_ps(_mm256_unpacklo_pd(_mm256_castps_pd(p), _mm256_castps_pd(q)));
-  };
-  const auto high = [](__m256 p, __m256 q) __attribute__((target("avx2"))) {
-    return _mm256_castpd_ps(_mm256_unpackhi_pd(_mm256_castps_pd(p), _mm256_castps_pd(q)));
-  };
-  return {
-      {low(ab_low, cd_low), high(ab_low, cd_low), low(ab_high, cd_high), high(ab_high, cd_high)}};
+#define VARIFOLD_AVX2 __attribute__((target("avx2"))) inline
+
+VARIFOLD_AVX2 __m256 low_pairs(__m256 a, __m256 b) {
+  return _mm256_castpd_ps(_mm256_unpacklo_pd(_mm256_castps_pd(a), _mm256_castps_pd(b)));
+}
+VARIFOLD_AVX2 __m256 high_pairs(__m256 a, __m256 b) {
+  return _mm256_castpd_ps(_mm256_unpackhi_pd(_mm256_castps_pd(a), _mm256_castps_pd(b)));
+}
+// Four rows of four words become columns; of two such blocks at once.
+VARIFOLD_AVX2 void transpose(__m256 (&rows)[4]) {
+  const __m256 low_ab = _mm256_unpacklo_ps(rows[0], rows[1]);
+  const __m256 high_ab = _mm256_unpackhi_ps(rows[0], rows[1]);
+  const __m256 low_cd = _mm256_unpacklo_ps(rows[2], rows[3]);
+  const __m256 high_cd = _mm256_unpackhi_ps(rows[2], rows[3]);
+  rows[0] = low_pairs(low_ab, low_cd);
+  rows[1] = high_pairs(low_ab, low_cd);
+  rows[2] = low_pairs(high_ab, high_cd);
+  rows[3] = high_pairs(high_ab, high_cd);
 }
 
-__attribute__((target("avx2"))) inline __m256 bounds_row(const RegionBatch& regions,
-                                                         std::size_t row) {
-  const auto load = [&](std::size_t lane) __attribute__((target("avx2"))) {
-    return _mm_loadu_ps(reinterpret_cast<const float*>(regions.bounds[lane]));
-  };
-  return _mm256_set_m128(load(row + 4), load(row));
+VARIFOLD_AVX2 __m128 load_bounds(const PackedBounds* bounds) {
+  return _mm_castsi128_ps(_mm_loadu_si128(reinterpret_cast<const __m128i*>(bounds)));
+}
+VARIFOLD_AVX2 __m128 load_center(const Vec3* center) {
+  return _mm_movelh_ps(_mm_castsi128_ps(_mm_loadu_si64(center)), _mm_load_ss(&center->z));
 }
 
-__attribute__((target("avx2"))) inline __m256 center_row(const RegionBatch& regions,
-                                                         std::size_t row) {
-  const auto load = [&](std::size_t lane) __attribute__((target("avx2"))) {
-    const float* at = &regions.centers[lane]->x;
-    return _mm_movelh_ps(_mm_castsi128_ps(_mm_loadu_si64(at)), _mm_load_ss(at + 2));
-  };
-  return _mm256_set_m128(load(row + 4), load(row));
-}
-
-__attribute__((target("avx2"))) inline void load_lanes(const RegionBatch& regions, Lanes& lanes) {
-  const Columns place = transposed(center_row(regions, 0), center_row(regions, 1),
-                                   center_row(regions, 2), center_row(regions, 3));
-  _mm256_store_ps(lanes.x, place.column[0]);
-  _mm256_store_ps(lanes.y, place.column[1]);
-  _mm256_store_ps(lanes.z, place.column[2]);
-  const Columns words = transposed(bounds_row(regions, 0), bounds_row(regions, 1),
-                                   bounds_row(regions, 2), bounds_row(regions, 3));
-  const auto store = [](std::uint32_t * to, __m256 column) __attribute__((target("avx2"))) {
-    _mm256_store_si256(reinterpret_cast<__m256i*>(to), _mm256_castps_si256(column));
-  };
-  store(lanes.cone, words.column[0]);
-  store(lanes.radii, words.column[1]);
-  store(lanes.errors, words.column[2]);
-  store(lanes.below, words.column[3]);
+VARIFOLD_AVX2 void load_lanes(const RegionBatch& regions, Lanes& lanes) {
+  __m256 center[4], words[4];
+  for (std::size_t i = 0; i < 4; ++i) {
+    center[i] =
+        _mm256_set_m128(load_center(regions.centers[i + 4]), load_center(regions.centers[i]));
+    words[i] = _mm256_set_m128(load_bounds(regions.bounds[i + 4]), load_bounds(regions.bounds[i]));
+  }
+  transpose(center);
+  _mm256_store_ps(lanes.x, center[0]);
+  _mm256_store_ps(lanes.y, center[1]);
+  _mm256_store_ps(lanes.z, center[2]);
+  transpose(words);
+  std::uint32_t* const to[] = {lanes.cone, lanes.radii, lanes.errors, lanes.below};
+  for (std::size_t i = 0; i < 4; ++i)
+    _mm256_store_si256(reinterpret_cast<__m256i*>(to[i]), _mm256_castps_si256(words[i]));
 }
 
 // Odometers::key() of all lanes.
-__attribute__((target("avx2"))) inline void make_keys(const Odometers& odometers,
-                                                      const LaneAnswers& lanes,
-                                                      AnswerBatch& answers) {
+VARIFOLD_AVX2 void make_keys(const Odometers& odometers, const LaneAnswers& lanes,
+                             AnswerBatch& answers) {
   const __m256i mover = _mm256_load_si256(reinterpret_cast<const __m256i*>(lanes.mover));
   const __m256 base = _mm256_permutevar8x32_ps(_mm256_loadu_ps(odometers.base().data()), mover);
   const __m256 sum = _mm256_add_ps(base, _mm256_load_ps(lanes.slack));
@@ -203,6 +195,9 @@ __attribute__((target("avx2"))) void test_avx2(const ViewQuery& query, const Odo
   test_lanes<Kind>(query, lanes, regions.keep.data(), lane_answers);
   make_keys(odometers, lane_answers, answers);
 }
+
+#undef VARIFOLD_AVX2
+
 const bool kHasAvx2 = __builtin_cpu_supports("avx2") != 0;
 
 template <class Kind>

@@ -68,6 +68,10 @@ class ViewFront {
     const std::uint32_t slot = slot_of_[step];
     return slot != kNone && (slots_[slot].flags & kSplit) != 0;
   }
+  /// Of the last call of adapt(); null where there was none, or none with a view.
+  [[nodiscard]] const ViewQuery* last_view() const {
+    return has_question_ && question_.has_view() ? &question_.view() : nullptr;
+  }
   [[nodiscard]] std::uint32_t slot_count() const {
     return static_cast<std::uint32_t>(slots_.size());
   }

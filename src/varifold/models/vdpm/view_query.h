@@ -188,6 +188,12 @@ class ViewQuery {
   [[nodiscard]] bool tests_frustum() const { return numbers_.tests_frustum != 0; }
   [[nodiscard]] const view_query::Numbers& numbers() const { return numbers_; }
 
+  /// False where the region is outside the frustum or turned away for certain. O(1).
+  [[nodiscard]] bool may_see(const ViewRegion& region) const {
+    const Sphere ball{region.center, region.radius};
+    if (tests_frustum() && classify(frustum_, ball) == Containment::kOutside) return false;
+    return numbers_.tests_facing == 0 || !is_back_facing(region.cone, ball, eye());
+  }
   /// Whether the region asks for detail; with `keep` > 0 also where it would after the eye moved by
   /// that part of its distance. O(1).
   [[nodiscard]] ViewAnswer test(const ViewRegion& region, float keep = 0) const {
