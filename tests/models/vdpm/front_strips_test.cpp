@@ -77,7 +77,7 @@ class SimpleSpirals {
       if (!has_area(triangles_[t].corners)) continue;
       free_.insert(t);
       for (std::size_t e = 0; e < 3; ++e)
-        on_edge_[{corner(t, e), corner(t, e + 1), triangles_[t].material}].push_back(t);
+        on_edge_.insert({{corner(t, e), corner(t, e + 1)}, t});  // unless there is one before it
     }
     while (!free_.empty()) paths_.push_back(path_from(*free_.begin()));
   }
@@ -89,11 +89,10 @@ class SimpleSpirals {
   }
   // The free neighbour across edge e of triangle t.
   [[nodiscard]] std::optional<std::size_t> across(std::size_t t, std::size_t e) const {
-    const auto found = on_edge_.find({corner(t, e + 1), corner(t, e), triangles_[t].material});
-    if (found == on_edge_.end()) return std::nullopt;
-    for (const std::size_t other : found->second)
-      if (free_.contains(other)) return other;
-    return std::nullopt;
+    const auto found = on_edge_.find({corner(t, e + 1), corner(t, e)});
+    const bool is_free = found != on_edge_.end() && free_.contains(found->second) &&
+                         triangles_[found->second].material == triangles_[t].material;
+    return is_free ? std::optional(found->second) : std::nullopt;
   }
   Path path_from(std::size_t first) {
     Path path{triangles_[first]};
@@ -122,7 +121,7 @@ class SimpleSpirals {
 
   std::vector<ListedTriangle> triangles_;
   std::set<std::size_t> free_;
-  std::map<std::array<std::uint32_t, 3>, std::vector<std::size_t>> on_edge_;
+  std::map<std::array<std::uint32_t, 2>, std::size_t> on_edge_;
   std::vector<Path> paths_;
 };
 

@@ -31,19 +31,15 @@ void grow_to(std::vector<T>& buffer, std::size_t size) {
 // Grows strips, one after the other. Plain pointers, so that writing an index does not make the
 // compiler read them again.
 struct FrontStrips::Spiral {
-  const std::uint32_t* slots;  // of the triangles
-  const std::uint32_t* begin;
-  const Spoke* spokes;
+  const std::uint32_t* slots;   // of the triangles
+  const std::uint32_t* across;  // per half-edge
   std::uint32_t* free;
   std::uint32_t* out;
 
-  // The first half-edge from slot to slot whose triangle is free, else kNone.
-  [[nodiscard]] std::uint32_t find(std::uint32_t from, std::uint32_t to,
-                                   std::uint32_t material) const {
-    const Spoke* const end = spokes + begin[from + 1];
-    for (const Spoke* spoke = spokes + begin[from]; spoke != end; ++spoke)
-      if (spoke->end == to && free[spoke->half_edge >> 2] == material) return spoke->half_edge;
-    return kNone;
+  // Where a half-edge leads to, if that is free.
+  [[nodiscard]] std::uint32_t find(std::uint32_t half_edge, std::uint32_t material) const {
+    const std::uint32_t other = across[half_edge];
+    return other != kNone && free[other >> 2] == material ? other : kNone;
   }
 
   // Writes the triangle that the strip begins with, and returns where it goes on.
@@ -51,8 +47,7 @@ struct FrontStrips::Spiral {
     const std::uint32_t* const corners = slots + 3 * std::size_t{place};
     free[place] = kNone;
     std::uint32_t next = kNone, apex = 0;
-    for (; apex < 3 && next == kNone; ++apex)
-      next = find(corners[(apex + 2) % 3], corners[(apex + 1) % 3], material);
+    for (; apex < 3 && next == kNone; ++apex) next = find(4 * place + (apex + 1) % 3, material);
     apex = next == kNone ? 0 : apex - 1;
     *out++ = corners[apex];
     *out++ = corners[(apex + 1) % 3];
@@ -65,16 +60,16 @@ struct FrontStrips::Spiral {
     // The last two indices are the ends of the half-edge that the strip has come in by.
     while (entry != kNone) {
       const std::uint32_t corner = entry & 3u, here = entry >> 2;
+      const std::uint32_t right = corner == 2 ? 0 : corner + 1, left = corner == 0 ? 2 : corner - 1;
       const std::uint32_t* const corners = slots + 3 * std::size_t{here};
-      const std::uint32_t from = corners[corner], to = corners[corner == 2 ? 0 : corner + 1];
-      const std::uint32_t apex = corners[corner == 0 ? 2 : corner - 1];
       free[here] = kNone;
       // Clockwise is about the end of that half-edge.
-      std::uint32_t pivot = to;
-      entry = find(apex, to, material);
+      std::uint32_t pivot = corners[right];
+      const std::uint32_t apex = corners[left];
+      entry = find(4 * here + right, material);
       if (entry == kNone) {
-        pivot = from;
-        entry = find(from, apex, material);
+        pivot = corners[corner];
+        entry = find(4 * here + left, material);
         if (entry == kNone) pivot = out[-1];
       }
       if (out[-1] != pivot) *out++ = pivot;
@@ -96,7 +91,7 @@ struct FrontStrips::Spiral {
   }
 };
 
-// Counts the half-edges of vertex v at begin_[v + 2] as well. Returns how many triangles are free.
+// Also counts the corners at vertex v in begin_[v + 2]. Returns how many triangles are free.
 std::size_t FrontStrips::mark_free(const DrawList& triangles) {
   const std::size_t vertices = triangles.positions.size();
   grow_to(free_, triangles.indices.size() / 3);
@@ -118,7 +113,7 @@ std::size_t FrontStrips::mark_free(const DrawList& triangles) {
   return count;
 }
 
-// Sorts by counting, so that each row has its half-edges in the order of the list.
+// By counting, so that each row is in the order of the list.
 void FrontStrips::sort_spokes(const DrawList& triangles, std::size_t count) {
   const std::size_t vertices = triangles.positions.size();
   for (std::size_t v = 2; v < vertices + 2; ++v) begin_[v] += begin_[v - 1];
@@ -130,10 +125,35 @@ void FrontStrips::sort_spokes(const DrawList& triangles, std::size_t count) {
     if (range.primitive != Primitive::kTriangles) continue;
     for_each_triangle(triangles, range, [&](std::uint32_t place, const std::uint32_t* slots) {
       if (free[place] == kNone) return;
-      spokes[next[slots[0]]++] = {slots[1], 4 * place};
-      spokes[next[slots[1]]++] = {slots[2], 4 * place + 1};
-      spokes[next[slots[2]]++] = {slots[0], 4 * place + 2};
+      spokes[next[slots[0]]++] = {4 * place, slots[1], slots[2]};
+      spokes[next[slots[1]]++] = {4 * place + 1, slots[2], slots[0]};
+      spokes[next[slots[2]]++] = {4 * place + 2, slots[0], slots[1]};
     });
+  }
+}
+
+// Each half-edge into a vertex finds what runs the other way among those out of it, without a
+// search: these leave marks where they end.
+void FrontStrips::pair_half_edges(std::size_t vertices, std::size_t places) {
+  grow_to(marks_, vertices);
+  grow_to(across_, 4 * places);
+  std::fill_n(marks_.begin(), vertices, Mark{kNone, kNone});
+  Mark* const marks = marks_.data();
+  std::uint32_t* const across = across_.data();
+  for (std::uint32_t v = 0; v < vertices; ++v) {
+    const Spoke* const begin = spokes_.data() + begin_[v];
+    const Spoke* const end = spokes_.data() + begin_[v + std::size_t{1}];
+    // Backwards, so that of several the first stays.
+    for (const Spoke* spoke = end; spoke != begin;) {
+      --spoke;
+      marks[spoke->end] = {v, spoke->half_edge};
+    }
+    for (const Spoke* spoke = begin; spoke != end; ++spoke) {
+      const Mark mark = marks[spoke->before];
+      const bool is_first = (spoke->half_edge & 3u) == 0;
+      across[is_first ? spoke->half_edge + 2 : spoke->half_edge - 1] =
+          mark.from == v ? mark.half_edge : kNone;
+    }
   }
 }
 
@@ -141,9 +161,9 @@ DrawList FrontStrips::build(const DrawList& triangles, StripJoin join) {
   join_ = join;
   const std::size_t count = mark_free(triangles);
   sort_spokes(triangles, 3 * count);
+  pair_half_edges(triangles.positions.size(), triangles.indices.size() / 3);
   grow_to(indices_, count * (join == StripJoin::kRestart ? kMostWithRestarts : kMostWithRepeats));
-  Spiral spiral{triangles.indices.data(), begin_.data(), spokes_.data(), free_.data(),
-                indices_.data()};
+  Spiral spiral{triangles.indices.data(), across_.data(), free_.data(), indices_.data()};
   ranges_.clear();
   reserve_for(ranges_, triangles.ranges.size());
   std::uint32_t* begin = indices_.data();  // of the range
@@ -181,8 +201,10 @@ DrawList FrontStrips::again(const DrawList& triangles) const {
 }
 
 std::size_t FrontStrips::bytes() const {
-  return (free_.capacity() + begin_.capacity() + indices_.capacity()) * sizeof(std::uint32_t) +
-         spokes_.capacity() * sizeof(Spoke) + ranges_.capacity() * sizeof(DrawRange);
+  return (free_.capacity() + begin_.capacity() + across_.capacity() + indices_.capacity()) *
+             sizeof(std::uint32_t) +
+         spokes_.capacity() * sizeof(Spoke) + marks_.capacity() * sizeof(Mark) +
+         ranges_.capacity() * sizeof(DrawRange);
 }
 
 }  // namespace varifold
