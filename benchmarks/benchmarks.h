@@ -10,5 +10,6 @@ void register_io();
 void register_measure();
 void register_strips();
 void register_lodstrips();
+void register_front_strips();
 
 }  // namespace varifold::bench

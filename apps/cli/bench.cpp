@@ -224,6 +224,9 @@ void check_test(const BenchCommand& command, const std::string& input, const Any
         if (command.test.name == "plane" && !FollowsPlane<Model>)
           wrong_usage(input + ": --test plane needs levels per region; a model of kind " +
                       ModelKind<Model>::kName + " has one level for all");
+        if (command.camera.strips && !MakesStrips<Model>)
+          wrong_usage(input + ": --strips makes strips of view-dependent meshes, not of kind " +
+                      ModelKind<Model>::kName);
       },
       any);
 }
@@ -321,7 +324,7 @@ void check_camera_test(const CLI::App& command, const BenchCommand& options) {
     return;
   }
   for (const char* const option : {"--path", "--pixels", "--triangles", "--size", "--per-frame",
-                                   "--no-frustum", "--no-orientation"})
+                                   "--no-frustum", "--no-orientation", "--strips"})
     if (command.count(option) > 0)
       wrong_usage(std::string(option) + " means nothing to --test " + options.test.name);
 }

@@ -58,6 +58,8 @@ Json frame_list(std::span<const CameraFrame> frames, bool is_drawn) {
                     {"moving_vertices", frame.moving},
                     {"tolerance_pixels", frame.tolerance},
                     {"indices_submitted", frame.indices},
+                    {"strips", frame.measures.strips},
+                    {"changed_bytes", frame.changed_bytes},
                     {"adapt_ms", 1e3 * frame.adapt_seconds},
                     {"draw_list_ms", 1e3 * frame.list_seconds},
                     {"drawing_ms", is_drawn ? Json(1e3 * frame.draw_seconds) : Json()},
@@ -90,6 +92,30 @@ void add_times(std::span<const CameraFrame> frames, Json& result) {
   result["collapses"] = static_cast<std::uint64_t>(collapses);
   result["splits_per_second"] = per_second(splits);
   result["collapses_per_second"] = per_second(collapses);
+}
+
+// Triangles, indices and misses of all frames; what changes, after the first.
+void add_lists(const CameraTest& test, std::span<const CameraFrame> frames, Json& result) {
+  const auto later = frames.subspan(1);
+  const auto mean = [](std::span<const CameraFrame> some, const auto& value) {
+    return sum_of(some, value) / std::max<double>(1, static_cast<double>(some.size()));
+  };
+  const auto triangles = [](const CameraFrame& f) { return f.measures.triangles; };
+  const double all = std::max(1.0, sum_of(frames, triangles));
+  const double strips = sum_of(frames, [](const auto& f) { return f.measures.strips; });
+  result["strips"] = test.strips;
+  result["strips_mean"] = strips / static_cast<double>(frames.size());
+  result["triangles_per_strip"] = strips > 0 ? Json(all / strips) : Json();
+  const auto indices = [](const CameraFrame& f) { return f.measures.indices; };
+  result["indices_per_triangle"] = sum_of(frames, indices) / all;
+  const auto misses_16 = [&](const CameraFrame& f) { return f.acmr_16 * triangles(f); };
+  const auto misses_24 = [&](const CameraFrame& f) { return f.acmr_24 * triangles(f); };
+  result["acmr_16"] = sum_of(frames, misses_16) / all;
+  result["acmr_24"] = sum_of(frames, misses_24) / all;
+  const double seconds = sum_of(later, [](const auto& f) { return f.list_seconds; });
+  const double drawn = sum_of(later, triangles);
+  result["draw_list_ns_per_triangle"] = drawn > 0 ? 1e9 * seconds / drawn : 0;
+  result["changed_bytes_mean"] = mean(later, [](const auto& f) { return f.changed_bytes; });
 }
 
 void add_fronts(const CameraTest& test, std::span<const CameraFrame> frames, Json& result) {
@@ -148,6 +174,10 @@ void add_camera_test_options(CLI::App& command, CameraTest& test) {
       ->type_name("T")
       ->group(group);
   command
+      .add_flag("--strips", test.strips,
+                "Draw triangle strips, made anew in each frame (view-dependent meshes)")
+      ->group(group);
+  command
       .add_option("--morph", test.morph_frames,
                   "Splits and collapses take so many frames (view-dependent meshes)")
       ->check(CLI::Range(0u, 255u))
@@ -195,11 +225,34 @@ Json camera_result(const CameraTest& test, const CameraPath& path,
   add_times(frames, result);
   add_fronts(test, frames, result);
   add_jumps(frames, result);
+  add_lists(test, frames, result);
   result["indices_submitted"] =
       static_cast<std::uint64_t>(sum_of(frames, [](const auto& f) { return f.indices; }));
   result["frames_checksum"] = frames_checksum(frames);
   if (test.per_frame) result["per_frame"] = frame_list(frames, is_drawn);
   return result;
+}
+
+void ListMeasures::next(const DrawList& list, CameraFrame& frame) {
+  frame.measures = measure_indices(list.indices, list.ranges);
+  frame.acmr_16 = measure_cache(list.indices, list.ranges, 16).acmr();
+  frame.acmr_24 = measure_cache(list.indices, list.ranges, 24).acmr();
+  // Elements beyond what there was are new in any case.
+  const auto count = [](std::span<const ElementRange> ranges, std::uint64_t known,
+                        std::uint64_t size) {
+    std::uint64_t sum = size - std::min(known, size);
+    for (const ElementRange& range : ranges)
+      if (range.first < known) sum += std::min<std::uint64_t>(range.count, known - range.first);
+    return sum;
+  };
+  const std::size_t bytes_per_vertex = sizeof(Vec3) + (list.normals.empty() ? 0 : sizeof(Vec3)) +
+                                       (list.texcoords.empty() ? 0 : sizeof(Vec2)) +
+                                       (list.colors.empty() ? 0 : sizeof(Color));
+  frame.changed_bytes =
+      bytes_per_vertex * count(list.changed_vertices, vertices_, list.positions.size()) +
+      sizeof(std::uint32_t) * count(list.changed_indices, indices_, list.indices.size());
+  vertices_ = list.positions.size();
+  indices_ = list.indices.size();
 }
 
 std::string camera_row(const Json& result) {

@@ -7,6 +7,7 @@
 #include <varifold/base/result.h>
 #include <varifold/io/any_model.h>
 #include <varifold/measure/frame_jumps.h>
+#include <varifold/strip/strip_measures.h>
 #include <varifold/view/camera_path.h>
 #include <algorithm>
 #include <cstdint>
@@ -26,6 +27,7 @@ struct CameraTest {
   std::optional<PictureSize> size;
   std::uint32_t morph_frames = 0;
   bool per_frame = false;
+  bool strips = false;  ///< made anew for each frame
   bool no_frustum = false, no_orientation = false;
 
   /// 1 where nothing is asked for; 0, as fine as the triangles allow, with --triangles alone.
@@ -45,6 +47,9 @@ struct CameraFrame {
   std::uint32_t moving = 0;  // vertices that morphs move
   float tolerance = 0;
   std::uint64_t indices = 0;
+  IndexMeasures measures;           // of the list
+  double acmr_16 = 0, acmr_24 = 0;  // first-in first-out caches of so many vertices
+  std::uint64_t changed_bytes = 0;  // what a device has to be sent
   FrameJumps::Jumps jumps;
 };
 
@@ -71,6 +76,21 @@ template <UniformModel Model>
   return targets;
 }
 
+/// Instances of triangles that can be drawn as strips, too.
+template <class Model>
+concept MakesStrips = requires(InstanceOf<Model>& instance) {
+  { instance.draw_strips() } -> std::same_as<DrawList>;
+};
+
+/// Counts what a list draws and, after the lists of the frames before, what of it is new.
+class ListMeasures {
+ public:
+  void next(const DrawList& list, CameraFrame& frame);
+
+ private:
+  std::uint64_t vertices_ = 0, indices_ = 0;
+};
+
 /// Draws a list as a camera sees it; empty where nothing is drawn.
 using DrawFrame = std::function<Result<void>(const DrawList&, const Camera&)>;
 
@@ -85,7 +105,8 @@ class CameraWalk {
     for (const Vec3& p : model_->attributes().positions) box_.add(p);
   }
 
-  /// Walks twice: once against the clock, and once, with an instance of its own, for the jumps.
+  /// Walks twice: once against the clock, and once, with an instance of its own, for the jumps and
+  /// what the lists are like.
   Result<Json> run(const CameraPath& path, const DrawFrame& draw) {
     const auto cameras = cameras_of(path, box_);
     if (!cameras) return fail_in(test_.path, cameras.error());
@@ -93,7 +114,7 @@ class CameraWalk {
     std::size_t instance_bytes = 0;
     if (auto timed = time(*cameras, draw, frames, instance_bytes); !timed)
       return tl::unexpected(timed.error());
-    measure_jumps(*cameras, frames);
+    measure(*cameras, frames);
     Json result{{"kind", ModelKind<Model>::kName}};
     result.update(camera_result(test_, path, frames, static_cast<bool>(draw)));
     const double vertices = std::max(1u, model_->vertex_count(model_->finest_level()));
@@ -113,7 +134,7 @@ class CameraWalk {
       frame = adapt(instance, cameras[i]);
       frame.adapt_seconds = adapting.seconds();
       const Stopwatch listing;
-      const DrawList list = instance.draw_list();
+      const DrawList list = list_of(instance);
       frame.list_seconds = listing.seconds();
       for (const DrawRange& range : list.ranges) frame.indices += range.index_count;
       if (!draw) continue;
@@ -125,12 +146,20 @@ class CameraWalk {
     return {};
   }
 
-  void measure_jumps(std::span<const Camera> cameras, std::vector<CameraFrame>& frames) {
+  DrawList list_of(InstanceOf<Model>& instance) const {
+    if constexpr (MakesStrips<Model>)
+      if (test_.strips) return instance.draw_strips();
+    return instance.draw_list();
+  }
+
+  void measure(std::span<const Camera> cameras, std::vector<CameraFrame>& frames) {
     InstanceOf<Model> instance(model_);
     FrameJumps jumps(collapse_targets(*model_));
+    ListMeasures lists;
     for (std::size_t i = 0; i < cameras.size(); ++i) {
       (void)adapt(instance, cameras[i]);
-      const DrawList list = instance.draw_list();
+      const DrawList list = list_of(instance);
+      lists.next(list, frames[i]);
       std::vector<std::uint32_t> vertices;
       if constexpr (NumbersVertices<Model>) vertices = instance.vertices_of_slots();
       frames[i].jumps = jumps.next(list, vertices, cameras[i]);

@@ -120,6 +120,39 @@ TEST_F(CameraCommands, GoalsAndCriteria) {
   EXPECT_GT(around["triangles_mean"], all["triangles_mean"]);
 }
 
+TEST_F(CameraCommands, StripsOfAFront) {
+  make_model("vdpm", "m.vfm");
+  const json list = bench({"--path", "orbit", "--per-frame"});
+  const json strips = bench({"--path", "orbit", "--strips", "--per-frame"});
+  EXPECT_EQ(list["strips"], false);
+  EXPECT_EQ(list["strips_mean"], 0);
+  EXPECT_EQ(list["indices_per_triangle"], 3);
+  EXPECT_EQ(strips["strips"], true);
+  EXPECT_EQ(strips["frames_checksum"], list["frames_checksum"]);
+  EXPECT_EQ(strips["max_jump_pixels"], list["max_jump_pixels"]);
+  EXPECT_LT(strips["indices_per_triangle"], 2);
+  EXPECT_GT(strips["triangles_per_strip"], 5);
+  EXPECT_LT(strips["acmr_16"], list["acmr_16"]);
+  EXPECT_GE(strips["acmr_16"], strips["acmr_24"]);
+  EXPECT_GT(strips["acmr_24"], 0.5);
+  // All indices of each front where something has changed, at least.
+  for (std::size_t i = 1; i < strips["per_frame"].size(); ++i) {
+    const json& frame = strips["per_frame"][i];
+    if (frame["splits"].get<int>() + frame["collapses"].get<int>() > 0) {
+      EXPECT_GE(frame["changed_bytes"], 4 * frame["indices_submitted"].get<std::uint64_t>()) << i;
+    } else {
+      EXPECT_EQ(frame["changed_bytes"], 0) << i;
+    }
+    EXPECT_GT(frame["strips"], 0);
+  }
+  make_model("strips", "m.vfm");
+  const ToolResult wrong =
+      run_tool({"bench", path("m.vfm"), "--test", "camera", "--path", "orbit", "--strips"});
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_NE(wrong.err.find("--strips"), std::string::npos);
+  EXPECT_EQ(run_tool({"bench", path("m.vfm"), "--strips"}).exit_code, 2);
+}
+
 TEST_F(CameraCommands, ModelsOfEveryKindFollow) {
   for (const char* const kind : {"pm", "lodstrips", "mts", "strips"}) {
     make_model(kind, "m.vfm");

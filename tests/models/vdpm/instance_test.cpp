@@ -62,6 +62,46 @@ TEST(VdpmInstance, FramesAllocateNothingWhereTheyHaveBeen) {
   }
 }
 
+TEST(VdpmInstance, StripsAllocateNothingWhereTheyHaveBeen) {
+  for (const NamedVdpm& named : all_vdpms()) {
+    ActiveSurface surface(*named.model);
+    FrontStrips strips;
+    RandomWalk walk(*named.model, 41);
+    for (const double upwards : {0.9, 0.2}) {
+      walk.walk(surface, 2 * named.model->step_count(), upwards);
+      for (const StripJoin join : {StripJoin::kRestart, StripJoin::kDegenerate}) {
+        const DrawList triangles = surface.draw_list();
+        (void)strips.build(triangles, join);
+        const std::size_t before = allocations;
+        (void)strips.build(triangles, join);
+        ASSERT_EQ(allocations, before) << named.name;
+      }
+    }
+  }
+}
+
+TEST(VdpmInstance, FramesOfStripsAllocateNothingWhereTheyHaveBeen) {
+  const NamedVdpm named = make_vdpm({"sphere", icosphere(5000)}, Placement::kKept);
+  const Sphere ball = named.model->bounding_ball();
+  ViewDependentInstance instance(named.model);
+  for (int round = 0; round < 8; ++round) {
+    const std::size_t before = allocations;
+    for (int frame = 0; frame < 100; ++frame) {
+      const float angle = 0.0628f * static_cast<float>(frame);
+      Camera camera;
+      camera.eye = ball.center + 3 * ball.radius * Vec3(std::cos(angle), 0.4f, std::sin(angle));
+      camera.target = ball.center;
+      RefineCriteria criteria;
+      criteria.view.emplace(camera);
+      instance.adapt(criteria, {0.5f, kNone});
+      (void)instance.draw_strips();
+    }
+    if (round == 7) {
+      EXPECT_EQ(allocations, before);
+    }
+  }
+}
+
 // Whatever the front still finds room for, morphs need no more.
 TEST(VdpmInstance, MorphsAllocateNothingWhereTheyHaveBeen) {
   const NamedVdpm named = make_vdpm({"sphere", icosphere(5000)}, Placement::kKept);

@@ -68,6 +68,17 @@ FrontStatistics ViewDependentInstance::fit_budget(const RefineCriteria& criteria
   return last;
 }
 
+DrawList ViewDependentInstance::draw_strips(StripJoin join) {
+  const DrawList triangles = surface_.draw_list();
+  // Triangles that come or turn are marked; those that only go change the count.
+  const bool is_same = !strips_are_old_ && join == strips_.join() &&
+                       triangles.changed_indices.empty() &&
+                       triangles_in_strips_ == surface_.triangle_count();
+  strips_are_old_ = false;
+  triangles_in_strips_ = surface_.triangle_count();
+  return is_same ? strips_.again(triangles) : strips_.build(triangles, join);
+}
+
 std::vector<std::uint32_t> ViewDependentInstance::vertices_of_slots() const {
   const ActiveVertices& active = surface_.vertices();
   std::vector<std::uint32_t> vertices(active.slots(), kNone);

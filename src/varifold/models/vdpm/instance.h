@@ -3,6 +3,7 @@
 
 #include <varifold/models/common/front_model.h>
 #include <varifold/models/vdpm/active_surface.h>
+#include <varifold/models/vdpm/front_strips.h>
 #include <varifold/models/vdpm/geomorph.h>
 #include <varifold/models/vdpm/tolerance_search.h>
 #include <varifold/models/vdpm/view_dependent_mesh.h>
@@ -55,7 +56,13 @@ class ViewDependentInstance {
 
   /// Draw-ready buffers; what changed since the last call of this function. Indices name places of
   /// the buffer of active vertices. Valid until the instance changes.
-  [[nodiscard]] DrawList draw_list() { return surface_.draw_list(); }
+  [[nodiscard]] DrawList draw_list() {
+    strips_are_old_ = true;
+    return surface_.draw_list();
+  }
+  /// The same as triangle strips, made anew where triangles have changed (front_strips.h); then all
+  /// indices are new. What is drawn should come from one of the two: both take the changes.
+  [[nodiscard]] DrawList draw_strips(StripJoin join = StripJoin::kRestart);
 
   /// Which vertex of the model each slot of the vertex buffer holds; kNone where it is free.
   /// O(vertices of the model).
@@ -63,7 +70,7 @@ class ViewDependentInstance {
 
   /// Memory of the instance alone.
   [[nodiscard]] std::size_t bytes() const {
-    return surface_.bytes() + front_.bytes() + morphs_.bytes();
+    return surface_.bytes() + front_.bytes() + morphs_.bytes() + strips_.bytes();
   }
 
   /// A copy as a mesh of its own, with materials: vertices and triangles in the order of the model.
@@ -80,6 +87,9 @@ class ViewDependentInstance {
   ViewFront front_;
   FrontGeomorphs morphs_;
   ToleranceSearch search_;
+  FrontStrips strips_;
+  std::uint32_t triangles_in_strips_ = 0;
+  bool strips_are_old_ = true;
   std::uint32_t level_ = 0;      // kNone where a front was asked for
   bool front_is_stale_ = false;  // it knows nothing of the level
 };
