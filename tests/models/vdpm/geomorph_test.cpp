@@ -126,6 +126,7 @@ class Simulation {
         goes_[v] = true;
       }
     }
+    is_first_ = false;
     last_view_.reset();
     Odometers any(still_.model().bounding_ball());
     if (criteria.view) last_view_.emplace(*criteria.view, 1.0f, any.reach(criteria.view->eye, 1));
@@ -136,6 +137,7 @@ class Simulation {
 
   [[nodiscard]] bool was_seen(std::uint32_t step) const {
     const ViewDependentMesh& model = still_.model();
+    if (is_first_) return false;
     return !last_view_ || last_view_->may_see(own_region(model.bounds(step), model.center(step)));
   }
   // As far as what the step requires is.
@@ -174,6 +176,7 @@ class Simulation {
   std::vector<bool> goes_ = std::vector<bool>(count_, false);
   std::vector<Touched> touched_;
   std::optional<ViewQuery> last_view_;
+  bool is_first_ = true;
   std::vector<bool> was_split_ = std::vector<bool>(still_.model().step_count(), false);
   std::vector<float> reach_;
   int turns_ = 0;
@@ -424,7 +427,7 @@ TEST(FrontGeomorphs, OnlyWhatMovesTakesMemory) {
   ActiveSurface surface(*named.model);
   std::uint32_t changes = 0;
   for (std::uint32_t step = 0; step < 3000; step += 500) {
-    morphs.begin_frame(surface, nullptr);
+    morphs.begin_frame(surface, nullptr, false);
     for (std::uint32_t k = step; k < step + 500; ++k, ++changes) morphs.split(k);
     morphs.advance(surface, 200, kNone);
   }

@@ -76,6 +76,7 @@ const FrontGeomorphs::Morph* FrontGeomorphs::find(std::uint32_t vertex) const {
 }
 
 bool FrontGeomorphs::was_seen(std::uint32_t step) const {
+  if (is_first_) return false;
   return !has_last_view_ ||
          last_view_.may_see(own_region(model_->bounds(step), model_->center(step)));
 }

@@ -44,9 +44,11 @@ class FrontGeomorphs {
     return static_cast<std::uint32_t>(morphs_.size());
   }
   /// Before the changes of a frame; `surface` must be changed by advance() alone while any moves.
-  /// `last_view`: of the frame before; null: all was seen.
-  void begin_frame(const ActiveSurface& surface, const ViewQuery* last_view) {
+  /// `last_view`: of the frame before; null where it had none, and all may have been seen. In the
+  /// first frame of all nothing was.
+  void begin_frame(const ActiveSurface& surface, const ViewQuery* last_view, bool is_first) {
     if (morphs_.empty()) triangles_ = surface.triangle_count();
+    is_first_ = is_first;
     has_last_view_ = last_view != nullptr;
     if (has_last_view_) last_view_ = *last_view;
   }
@@ -121,7 +123,7 @@ class FrontGeomorphs {
   std::vector<std::uint32_t> arrived_;  // steps to be removed; before that, steps that are split,
   std::vector<std::uint8_t> phases_;    // and what they begin with
   ViewQuery last_view_;
-  bool has_last_view_ = false;
+  bool has_last_view_ = false, is_first_ = false;
 };
 
 }  // namespace varifold

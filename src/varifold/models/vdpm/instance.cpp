@@ -12,6 +12,7 @@ void ViewDependentInstance::go_to_level(std::uint32_t level) {
   const std::uint32_t finest = model_->finest_level();
   level = std::min(level, finest);
   morphs_.finish(surface_);
+  is_new_ = false;
   const bool from_front = level_ == kNone;  // any step may have to change
   const std::uint32_t first = from_front ? 0 : std::min(level, level_);
   const std::uint32_t end = from_front ? finest : std::max(level, level_);
@@ -33,7 +34,8 @@ FrontStatistics ViewDependentInstance::adapt(const RefineCriteria& criteria,
   level_ = kNone;
   const bool has_morphs = limits.morph_frames > 1 || morphs_.moving_vertices() > 0;
   FrontGeomorphs* const morphs = has_morphs ? &morphs_ : nullptr;
-  if (has_morphs) morphs_.begin_frame(surface_, front_.last_view());
+  if (has_morphs) morphs_.begin_frame(surface_, front_.last_view(), is_new_);
+  is_new_ = false;
   AdaptOptions budget = options;
   budget.max_triangles = std::max(options.max_triangles, model_->triangle_count(0));
   FrontStatistics statistics = options.max_triangles == kNone

@@ -92,6 +92,7 @@ class ViewDependentInstance {
   bool strips_are_old_ = true;
   std::uint32_t level_ = 0;      // kNone where a front was asked for
   bool front_is_stale_ = false;  // it knows nothing of the level
+  bool is_new_ = true;           // neither a front nor a level was asked for
 };
 
 }  // namespace varifold
