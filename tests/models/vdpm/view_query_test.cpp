@@ -77,6 +77,10 @@ void move(Walk& walk, int kind, Random& random) {
     case 4:
       walk.tolerance *= std::pow(4.0f, size * within(random, -1, 1));
       break;
+    case 5:
+      walk.near_distance *= std::pow(1.5f, size * within(random, -1, 1));
+      walk.eye += random_direction(random) * 0.1f * size;
+      break;
     default:
       walk.eye -= walk.eye * 0.01f * size;
   }
@@ -109,7 +113,7 @@ TEST(ViewQuery, NoAnswerChangesBeforeItsKeyIsDue) {
       ask(k);
     }
     for (int frame = 0; frame < 200; ++frame) {
-      move(walk, (trial + frame / 40) % 6, random);
+      move(walk, (trial + frame / 40) % 7, random);
       if (glm::length(walk.eye - walk.target) < 0.05f) walk.eye += Vec3(0.2f, 0, 0);
       const ViewQuery now = query_of(walk, odometers);
       odometers.advance(before, now);

@@ -54,14 +54,17 @@ bool Odometers::advance(const ViewQuery& from, const ViewQuery& to) {
   const double tolerance = ratio == 1 ? 0 : std::abs(std::log(ratio)) * reach_;
   const double planes =
       to.tests_frustum() ? plane_motion(from.frustum(), to.frustum(), mesh_) : 0.0;
-  const double all = std::max(path, planes) + tolerance;
+  // No gap changes by more than the nearest distance that counts does.
+  const double nearer = std::abs(static_cast<double>(to.numbers().nearest) -
+                                 static_cast<double>(from.numbers().nearest));
+  const double all = std::max(path, planes) + tolerance + nearer;
   if (all == 0) return false;
-  const double lost = 1e-6 * (path + planes + tolerance);
+  const double lost = 1e-6 * (path + planes + tolerance + nearer);
 
   total_[index_of(Mover::kApproach)] += std::min(path, spread - away) + tolerance + lost;
   total_[index_of(Mover::kRecede)] +=
       std::max(std::min(path, spread + away) + tolerance, all / kRecedeShare) + lost;
-  total_[index_of(Mover::kEye)] += path + tolerance + lost;
+  total_[index_of(Mover::kEye)] += path + tolerance + nearer + lost;
   total_[index_of(Mover::kPlanes)] += planes + lost;
   total_[index_of(Mover::kAll)] += all + lost;
   round();
