@@ -41,33 +41,34 @@ void FrontGeomorphs::take_requests(const ActiveSurface& surface) {
   }
   requests_.resize(count);
   events_.clear();
-  // Whether a step of the surface goes already is known from its first vertex.
   arrived_.clear();  // here: those that the front splits
-  auto morph = morphs_.begin();
-  std::size_t collapses = 0;
-  for (const std::uint32_t step : requests_) {
-    const std::uint32_t vertex = model_->first_vertex(step);
-    morph = std::lower_bound(morph, morphs_.end(), vertex, is_before);
-    const bool goes = morph != morphs_.end() && morph->vertex == vertex && morph->goes;
-    if (!surface.is_split(step) || goes)
-      arrived_.push_back(step);
-    else
-      requests_[collapses++] = step;
-  }
-  // As the rule has it: attributes are those of the last to write them.
-  for (std::size_t i = collapses; i-- > 0;) add_events(requests_[i], false);
   phases_.clear();
-  for (const std::uint32_t step : arrived_) {
-    add_events(step, true);
-    const Morph* own = find(model_->first_vertex(step));
-    phases_.push_back(
-        std::max(events_.back().phase, own != nullptr ? own->phase : std::uint8_t{0}));
+  auto morph = morphs_.cbegin();
+  for (const std::uint32_t step : requests_) {
+    // Whether a step of the surface goes already is known from its first vertex.
+    const std::uint32_t vertex = model_->first_vertex(step);
+    morph = std::lower_bound(morph, morphs_.cend(), vertex, is_before);
+    const bool moves = morph != morphs_.cend() && morph->vertex == vertex;
+    if (!surface.is_split(step) || (moves && morph->goes))
+      add_split(step, moves ? morph->phase : std::uint8_t{0});
+    else
+      add_events(step, Change::kGoes, model_->moves_vertices() && was_seen(step), 0);
   }
   requests_.clear();
-  std::sort(events_.begin(), events_.end(), [](const Event& a, const Event& b) {
-    return a.vertex != b.vertex ? a.vertex < b.vertex : a.order < b.order;
-  });
+  // Otherwise each step has vertices of its own, in the order of the steps.
+  if (model_->moves_vertices())
+    std::sort(events_.begin(), events_.end(), [](const Event& a, const Event& b) {
+      return a.vertex != b.vertex ? a.vertex < b.vertex : a.order < b.order;
+    });
   merge_events(surface);
+}
+
+void FrontGeomorphs::add_split(std::uint32_t step, std::uint8_t phase) {
+  const bool seen = was_seen(step);
+  if (!seen) phase = std::max(phase, first_phase(step));
+  add_events(step, Change::kAppears, seen, phase);
+  arrived_.push_back(step);
+  phases_.push_back(phase);
 }
 
 const FrontGeomorphs::Morph* FrontGeomorphs::find(std::uint32_t vertex) const {
@@ -101,23 +102,23 @@ std::uint8_t FrontGeomorphs::first_phase(std::uint32_t step) const {
   return phase;
 }
 
-void FrontGeomorphs::add_events(std::uint32_t step, bool is_split) {
+// As the rule has it: attributes are those of the last to write them, first of the collapses from
+// fine to coarse, then of the splits.
+void FrontGeomorphs::add_events(std::uint32_t step, Change change, bool slides,
+                                std::uint8_t phase) {
   const ViewDependentMeshData& data = model_->data();
-  const std::uint32_t first = model_->first_vertex(step);
-  const std::uint32_t count = model_->levels().step(step).vertices;
-  const bool seen = was_seen(step);
-  const std::uint8_t phase = is_split && !seen ? first_phase(step) : std::uint8_t{0};
-  const auto add = [&](std::uint32_t vertex, std::uint32_t look, Change change) {
-    const auto order = static_cast<std::uint32_t>(events_.size());
-    events_.push_back({vertex, order, step, look, change, seen, phase});
-  };
-  for (std::uint32_t v = first; v < first + count; ++v) {
+  const bool is_split = change == Change::kAppears;
+  const std::uint32_t steps = model_->step_count();
+  const std::uint32_t order = is_split ? steps + step : steps - 1 - step;
+  const std::uint32_t first = model_->first_vertex(step), end = model_->first_vertex(step + 1);
+  for (std::uint32_t v = first; v < end; ++v) {
     const std::uint32_t look = data.first_look.empty() ? kNone : data.first_look[v];
-    add(v, look, is_split ? Change::kAppears : Change::kGoes);
+    events_.push_back({v, order, step, look, change, slides, phase});
   }
   if (!model_->moves_vertices()) return;
   for (std::uint32_t j = data.first_placed[step]; j < data.first_placed[step + 1]; ++j)
-    add(data.placed_vertex[j], is_split ? data.finer[j] : j, Change::kMoves);
+    events_.push_back({data.placed_vertex[j], order, step, is_split ? data.finer[j] : j,
+                       Change::kMoves, slides, phase});
 }
 
 // Merges from the end, where there is room for those that are new.
@@ -165,7 +166,7 @@ void FrontGeomorphs::apply(const Event& event, const ActiveVertices& vertices, M
       morph.step = event.step;
       morph.goes = false;
       morph.goal = event.look;
-      morph.phase = std::max(morph.phase, event.phase);
+      morph.phase = event.phase;
       // Other numbers of frames may have brought one on its way out back to the last phase.
       morph.left = static_cast<std::uint8_t>(std::max(1u, frames_ - morph.phase));
       break;
@@ -177,8 +178,8 @@ void FrontGeomorphs::apply(const Event& event, const ActiveVertices& vertices, M
     case Change::kMoves:
       if (morph.goes) break;
       morph.goal = event.look;
-      morph.left = event.was_seen ? static_cast<std::uint8_t>(frames_)
-                                  : std::max<std::uint8_t>(morph.left, 1);
+      morph.left =
+          event.slides ? static_cast<std::uint8_t>(frames_) : std::max<std::uint8_t>(morph.left, 1);
   }
 }
 

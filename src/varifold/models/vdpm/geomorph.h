@@ -93,7 +93,7 @@ class FrontGeomorphs {
     std::uint32_t vertex, order;
     std::uint32_t step, look;
     Change change;
-    bool was_seen;
+    bool slides;
     std::uint8_t phase;  // that it appears with
   };
 
@@ -105,9 +105,11 @@ class FrontGeomorphs {
   void set_frames(std::uint32_t frames);
   void take_requests(const ActiveSurface& surface);
   [[nodiscard]] bool was_seen(std::uint32_t step) const;
+  // Of steps that the front has split.
   [[nodiscard]] std::uint8_t phase_of(std::uint32_t step) const;
   [[nodiscard]] std::uint8_t first_phase(std::uint32_t step) const;
-  void add_events(std::uint32_t step, bool is_split);
+  void add_split(std::uint32_t step, std::uint8_t phase);
+  void add_events(std::uint32_t step, Change change, bool slides, std::uint8_t phase);
   void merge_events(const ActiveSurface& surface);
   [[nodiscard]] std::size_t count_new() const;
   void apply(const Event& event, const ActiveVertices& vertices, Morph& morph) const;

@@ -54,7 +54,8 @@ class ViewDependentMesh : public LevelQueries<ViewDependentMesh> {
   [[nodiscard]] std::uint32_t step_count() const { return data_.levels.finest_level(); }
   [[nodiscard]] bool moves_vertices() const { return !data_.first_placed.empty(); }
 
-  /// The step's first vertex; those of the step have the numbers from there on. O(1).
+  /// The step's first vertex; those of the step have the numbers from there on, up to that of the
+  /// next. `step` is at most step_count(). O(1).
   [[nodiscard]] std::uint32_t first_vertex(std::uint32_t step) const {
     return one_vertex_a_step_ ? step + base_vertices_ : data_.levels.vertex_count(step);
   }
