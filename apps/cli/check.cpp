@@ -89,7 +89,7 @@ template <class Model>
 CommandResult check_levels(const CheckCommand& command, const std::filesystem::path& path,
                            const std::shared_ptr<const Model>& model) {
   if (command.asks_for_fronts && !HasFronts<Model>)
-    wrong_usage(std::string("--fronts is for models of kind strips, not ") +
+    wrong_usage(std::string("--fronts is for models with fronts (strips, vdpm), not ") +
                 ModelKind<Model>::kName);
   const Stopwatch watch;
   ModelCheckOptions options;
@@ -141,7 +141,7 @@ void add_check(CLI::App& app, CommandRunner& runner) {
   const CLI::Option* const fronts =
       command
           ->add_option("--fronts", options->fronts,
-                       "Models of kind strips: how many levels per region; 0: none")
+                       "Models with fronts (strips, vdpm): how many of them; 0: none")
           ->check(CLI::Range(0u, 1'000'000u))
           ->capture_default_str()
           ->type_name("N");

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -138,10 +139,15 @@ template <class Model>
           criteria,
           {static_cast<float>(options.pixels.value_or(0)), options.triangles.value_or(kNone)});
       if (options.triangles) front.forced_splits = forced_splits(model, criteria, front);
-      return {0, front.tolerance, true, front.forced_splits, front.triangles};
+      // From there on places of full detail gave way: nothing bounds the error.
+      const float error = front.tolerance < RefineCriteria::kFullDetail
+                              ? front.tolerance
+                              : std::numeric_limits<float>::infinity();
+      return {0, error, true, front.forced_splits, front.triangles};
     }
   } else if (!places.empty()) {
-    wrong_usage(std::string("--sphere, --plane and --light are for models of kind strips, not ") +
+    wrong_usage(std::string("--sphere, --plane and --light are for models with fronts (strips, "
+                            "vdpm), not ") +
                 ModelKind<Model>::kName);
   }
   ChosenLevel chosen = choose_level(model, options, camera);
