@@ -309,6 +309,12 @@ void ViewFront::let_go() {
 }
 
 void ViewFront::split(std::uint32_t step, Frame& frame) {
+  if (frame.statistics.refused > 0) {
+    // The budget does not hold what is asked: whoever asks will ask for less.
+    ++frame.statistics.refused;
+    waiting_.push_back(step);
+    return;
+  }
   const std::uint32_t triangles = gather_required(step);
   const bool fits =
       triangles <= frame.max_triangles && frame.triangle_count() <= frame.max_triangles - triangles;
