@@ -87,7 +87,7 @@ bool FrontQuestion::differs_in_kind(const RefineCriteria& criteria, float tolera
   if (sees) {
     const ViewCriterion &a = *criteria.view, &b = *criteria_.view;
     if (is_graded(a) || a.outside_weight != b.outside_weight || a.back_weight != b.back_weight ||
-        a.scale.near_distance() != b.scale.near_distance())
+        a.deviation != b.deviation || a.scale.near_distance() != b.scale.near_distance())
       return true;
   }
   return !same_place(criteria.sphere, criteria_.sphere) ||
@@ -110,7 +110,7 @@ ViewAnswer FrontQuestion::ask(const ViewRegion& region, float keep) const {
 }
 
 ViewAnswer FrontQuestion::own(const StepBounds& bounds, const Vec3& center, float keep) const {
-  return ask(own_region(bounds, center), keep);
+  return ask(own_region(bounds, center, deviation()), keep);
 }
 
 ViewAnswer FrontQuestion::nested(const StepBounds& bounds, const Vec3& center) const {
@@ -158,8 +158,9 @@ void FrontQuestion::own(const ViewDependentMesh& model, std::span<const std::uin
                        std::size_t i) {
     batch.cosine[lane] = own_cosine(bounds);
     batch.radius[lane] = bounds.radius_length();
-    batch.mu[lane] = bounds.mu_length();
-    batch.delta[lane] = bounds.delta_length();
+    const StepDeviation off = own_deviation(bounds, deviation());
+    batch.mu[lane] = off.mu;
+    batch.delta[lane] = off.delta;
     batch.keep[lane] = keep[i];
   };
   answer(model, steps, chosen, single, set, answers);

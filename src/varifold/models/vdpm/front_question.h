@@ -51,6 +51,9 @@ class FrontQuestion {
               std::vector<ViewAnswer>& answers) const;
   // Whether the view alone asks, and for yes or no.
   [[nodiscard]] bool is_plain() const;
+  [[nodiscard]] DeviationMeasure deviation() const {
+    return criteria_.view ? criteria_.view->deviation : DeviationMeasure::kSeen;
+  }
   [[nodiscard]] ViewAnswer ask(const ViewRegion& region, float keep) const;
 
   RefineCriteria criteria_;

@@ -4,6 +4,8 @@
 #include <varifold/models/vdpm/step_bounds.h>
 #include <varifold/models/vdpm/view_query.h>
 #include <varifold/view/cone_code.h>
+#include <varifold/view/criteria.h>
+#include <algorithm>
 
 namespace varifold {
 
@@ -19,10 +21,21 @@ namespace varifold {
   return 1 - part * part;
 }
 
+/// mu and delta of a step as a view judges them; as a length, the greater one from all sides.
+struct StepDeviation {
+  float mu, delta;
+};
+[[nodiscard]] inline StepDeviation own_deviation(const StepBounds& bounds,
+                                                 DeviationMeasure measure) {
+  if (measure == DeviationMeasure::kSeen) return {bounds.mu_length(), bounds.delta_length()};
+  return {error_of_code(std::max(bounds.mu, bounds.delta)), 0};
+}
+
 /// What the step itself changes.
-[[nodiscard]] inline ViewRegion own_region(const StepBounds& bounds, const Vec3& center) {
-  return {center, bounds.radius_length(), bounds.own_cone(), bounds.mu_length(),
-          bounds.delta_length()};
+[[nodiscard]] inline ViewRegion own_region(const StepBounds& bounds, const Vec3& center,
+                                           DeviationMeasure measure = DeviationMeasure::kSeen) {
+  const StepDeviation deviation = own_deviation(bounds, measure);
+  return {center, bounds.radius_length(), bounds.own_cone(), deviation.mu, deviation.delta};
 }
 
 /// What it and all steps below it in the watch tree change.
