@@ -8,6 +8,8 @@
 #include <varifold/simplify/sample_blocks.h>
 #include <varifold/simplify/sequence_replay.h>
 #include <varifold/simplify/star_triangles.h>
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -93,12 +95,19 @@ class SampleCarrier {
     gather_after();
     if (moving_.empty()) return;
     nearest.reset(candidates_);
-    for (const Sample& sample : moving_) {
-      Vec3 residual;
-      const std::size_t found = nearest.find(sample.position, residual);
+    const auto move_to = [&](const Sample& sample, std::size_t found, const Vec3& residual) {
       if (doubled_areas_[found] < sample.released_at)
         samples_.add(candidates_[found].triangle, sample);
       visit(sample, residual);
+    };
+    if constexpr (requires(NearestBatch batch) { nearest.find(batch); }) {
+      find_in_batches(nearest, move_to);
+    } else {
+      for (const Sample& sample : moving_) {
+        Vec3 residual;
+        const std::size_t found = nearest.find(sample.position, residual);
+        move_to(sample, found, residual);
+      }
     }
     samples_.tidy();
   }
@@ -107,6 +116,21 @@ class SampleCarrier {
   [[nodiscard]] const Vec3& position(std::uint32_t vertex) const { return positions_[vertex]; }
 
  private:
+  template <class Nearest, class MoveTo>
+  void find_in_batches(const Nearest& nearest, const MoveTo& move_to) const {
+    NearestBatch batch{};
+    for (std::size_t begin = 0; begin < moving_.size(); begin += NearestBatch::kSize) {
+      const std::size_t count = std::min(NearestBatch::kSize, moving_.size() - begin);
+      for (std::size_t i = 0; i < count; ++i) {
+        const Vec3& p = moving_[begin + i].position;
+        batch.x[i] = p.x, batch.y[i] = p.y, batch.z[i] = p.z;
+      }
+      nearest.find(batch);
+      for (std::size_t i = 0; i < count; ++i)
+        move_to(moving_[begin + i], static_cast<std::size_t>(batch.found[i]),
+                Vec3(batch.way_x[i], batch.way_y[i], batch.way_z[i]));
+    }
+  }
   [[nodiscard]] std::span<const std::uint32_t> placed_by(std::uint32_t step) const;
   void gather_before();
   void move_placed();
