@@ -48,7 +48,10 @@ class SamplesOfOwners {
   /// Moves everything together where most of the memory lies free: as samples gather on fewer
   /// owners, blocks of sizes that nobody needs any more are left. Amortised O(1) a sample.
   void tidy() {
-    if (pool_.bytes() <= kMinTidyBytes + 4 * live_ * sizeof(Sample)) return;
+    // What is moved together is at most so many times what lives; until twice that has gathered
+    // again, or half of it has gone, nothing is moved.
+    constexpr std::size_t kMostRoom = std::max(2u, kSmallest);
+    if (pool_.size() <= kMinTidyEntries + 2 * kMostRoom * live_) return;
     Pool tidied;
     for (Owner& block : owners_) {
       if (block.size == 0) continue;
@@ -81,7 +84,7 @@ class SamplesOfOwners {
   struct Owner {
     std::uint32_t offset = 0, size = 0;
   };
-  static constexpr std::size_t kMinTidyBytes = 1 << 16;
+  static constexpr std::size_t kMinTidyEntries = 1 << 12;
   std::vector<Owner> owners_;
   Pool pool_;
   std::size_t live_ = 0;  // samples of all owners

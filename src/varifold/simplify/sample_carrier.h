@@ -57,7 +57,7 @@ struct SampleOptions {
 };
 
 /// See SampleOptions::on_edges.
-inline constexpr float kReleaseAt = 8;
+inline constexpr float kReleaseAt = 16;
 
 /// All vertices that have triangles, points inside the triangles and on the edges, along a Morton
 /// curve; those of an edge follow one another. O(n).
