@@ -76,11 +76,12 @@ Channel filter(const Channel& in, const Weights& along_x, const Weights& along_y
     std::size_t i = 0;
     for (int y = 0; y < from.height; ++y)
       for (int x = 0; x < from.width; ++x, ++i)
-        for (int k = -radius; k <= radius; ++k) {
-          const int column = std::clamp(x + k * step_x, 0, from.width - 1);
-          const int row = std::clamp(y + k * step_y, 0, from.height - 1);
+        for (std::size_t k = 0; k < weights.size(); ++k) {
+          const int away = static_cast<int>(k) - radius;
+          const int column = std::clamp(x + away * step_x, 0, from.width - 1);
+          const int row = std::clamp(y + away * step_y, 0, from.height - 1);
           to.values[i] +=
-              weights[static_cast<std::size_t>(k + radius)] *
+              weights[k] *
               from.values[static_cast<std::size_t>(row) * static_cast<std::size_t>(from.width) +
                           static_cast<std::size_t>(column)];
         }
@@ -157,10 +158,10 @@ Features features_of(const Channel& lightness, float pixels_per_degree) {
   const int radius = static_cast<int>(std::ceil(3 * deviation));
   const Weights smooth = bell(radius, 1, 2 * deviation * deviation);
   Weights first = smooth, second = smooth;
-  for (int k = -radius; k <= radius; ++k) {
-    const auto x = static_cast<float>(k);
-    first[static_cast<std::size_t>(k + radius)] *= -x;
-    second[static_cast<std::size_t>(k + radius)] *= x * x / (deviation * deviation) - 1;
+  for (std::size_t k = 0; k < smooth.size(); ++k) {
+    const auto x = static_cast<float>(static_cast<int>(k) - radius);
+    first[k] *= -x;
+    second[k] *= x * x / (deviation * deviation) - 1;
   }
   const Weights even = scaled(smooth, 1 / sum_of(smooth));
   const auto lengths = [&](const Weights& derivative) {
