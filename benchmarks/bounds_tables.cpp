@@ -82,14 +82,14 @@ using Spaces = std::vector<std::array<DeviationSpace, kKinds>>;
 Spaces spaces_of(const Case& c) {
   Spaces spaces(c.bounds.size());
   const VerticesByPlace places(c.detailed.mesh);
-  SampleCarrier carrier(c.detailed, places, surface_samples(c.detailed, {.inside_triangles = 1}));
+  SampleCarrier carrier(c.detailed, places, surface_samples(c.detailed, {.on_edges = 3}));
   NearestTriangle nearest;
   std::vector<Vec2> residuals;  // along the axis and across it
   while (carrier.level() > 0) {
     const StepBounds& own = c.bounds[carrier.level() - 1];
     const Vec3 axis = own.own_cone().axis;
     residuals.clear();
-    carrier.collapse(nearest, [&](std::uint32_t, const Vec3& e) {
+    carrier.collapse(nearest, [&](const SampleCarrier::Sample&, const Vec3& e) {
       const float along = glm::dot(e, axis);
       residuals.emplace_back(std::abs(along), glm::length(e - along * axis));
     });

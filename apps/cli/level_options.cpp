@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 #include <glm/common.hpp>
+#include <map>
 #include <string_view>
 #include <utility>
 
@@ -141,11 +142,24 @@ void add_place_options(CLI::App& command, PlaceOptions& options) {
                    "Direction to a light: less detail where its shading hardly changes",
                    [&](const Vec3& l) { options.light = l; })
       ->group(group);
+  const std::map<std::string, DeviationMeasure> measures{{"seen", DeviationMeasure::kSeen},
+                                                         {"length", DeviationMeasure::kLength}};
+  command
+      .add_option_function<std::string>(
+          "--deviation",
+          [&options, measures](const std::string& name) { options.deviation = measures.at(name); },
+          "What --pixels bounds (models of kind vdpm): deviations as they are seen from the eye, "
+          "or "
+          "their lengths")
+      ->check(CLI::IsMember({"seen", "length"}))
+      ->default_str("seen")
+      ->group("LEVEL");
 }
 
 RefineCriteria make_criteria(const PlaceOptions& places, const Camera* camera) {
   RefineCriteria criteria;
   if (camera) criteria.view.emplace(*camera);
+  if (criteria.view) criteria.view->deviation = places.deviation;
   if (places.light && criteria.view) {
     criteria.view->light.emplace();
     criteria.view->light->to_light = normalize_or_zero(*places.light);

@@ -54,6 +54,7 @@ struct PlaceOptions {
   std::optional<Vec4> sphere;  ///< center and radius
   std::optional<Vec4> plane;   ///< a x + b y + c z + d >= 0
   std::optional<Vec3> light;   ///< direction; with a view
+  DeviationMeasure deviation = DeviationMeasure::kSeen;
 
   [[nodiscard]] bool empty() const { return !sphere && !plane && !light; }
 };

@@ -48,6 +48,26 @@ TEST_P(Fronts, ABudgetTellsTheToleranceAndTheForcedSplitsOfWhatItFound) {
   EXPECT_EQ(same["forced_splits"], budget["forced_splits"]);
 }
 
+// Strips take deviations as lengths in any case.
+TEST_P(Fronts, DeviationsAreLengthsWhereThatIsAskedFor) {
+  static_cast<void>(make_model("planet", "20000"));
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"--eye", "1.6,0,0", "--target", "0,0,0", "--pixels", "2"});
+    return extract(more)["triangles"].get<int>();
+  };
+  const int as_ever = with({}), seen = with({"--deviation", "seen"});
+  const int length = with({"--deviation", "length"});
+  EXPECT_EQ(seen, as_ever);
+  if (GetParam() == std::string("vdpm"))
+    EXPECT_GT(length, seen);
+  else
+    EXPECT_EQ(length, seen);
+  EXPECT_EQ(test::run_tool({"extract", path("m.vfm"), "-o", path("front.ply"), "--pixels", "2",
+                            "--deviation", "other"})
+                .exit_code,
+            2);
+}
+
 INSTANTIATE_TEST_SUITE_P(Kinds, Fronts, ::testing::Values("strips", "vdpm"),
                          [](const auto& kind) { return std::string(kind.param); });
 

@@ -52,5 +52,23 @@ TEST(SampleBlocks, TidyingBoundsMemory) {
   EXPECT_LT(greatest, 8 * kOwners * sizeof(EnergySample) + (1 << 19));
 }
 
+// Tidying moves all samples, so it has to be worth it: once more at once it does nothing.
+template <std::uint32_t kSmallest>
+void expect_tidy_once() {
+  SamplesOfOwners<EnergySample, kSmallest> blocks(1 << 15);
+  for (std::uint32_t i = 0; i < 1 << 15; ++i) blocks.add(i, sample_of(i));
+  for (std::uint32_t i = 1; i < 1 << 15; ++i) {
+    blocks.tidy();
+    const EnergySample* const before = blocks.of(0).data();
+    blocks.tidy();
+    ASSERT_EQ(blocks.of(0).data(), before) << i;
+    if (i % 3 == 0) blocks.clear(i);
+  }
+}
+TEST(SampleBlocks, TidyingIsDoneOnce) {
+  expect_tidy_once<1>();
+  expect_tidy_once<4>();
+}
+
 }  // namespace
 }  // namespace varifold

@@ -26,6 +26,7 @@ TEST(NearestTriangle, IsTheNearestAndTheFirstOfThem) {
     }
     NearestTriangle nearest;
     nearest.reset(triangles);
+    NearestBatch batch{};
     for (int i = 0; i < 20; ++i) {
       const Vec3 p = test::point_in_cube(random, i % 2 == 0 ? 1.0f : 3.0f) + far;
       Vec3 way;
@@ -44,6 +45,15 @@ TEST(NearestTriangle, IsTheNearestAndTheFirstOfThem) {
       }
       ASSERT_EQ(found, first);
       ASSERT_EQ(way, least.point);
+      const std::size_t lane = static_cast<std::size_t>(i) % NearestBatch::kSize;
+      batch.x[lane] = p.x, batch.y[lane] = p.y, batch.z[lane] = p.z;
+      NearestBatch plain = batch;
+      nearest.find(batch);
+      star_triangles::find_nearest_plain(triangles, plain);
+      for (const NearestBatch& b : {batch, plain}) {
+        ASSERT_EQ(static_cast<std::size_t>(b.found[lane]), first);
+        ASSERT_EQ(Vec3(b.way_x[lane], b.way_y[lane], b.way_z[lane]), least.point);
+      }
       // ... and by brute force.
       ASSERT_NEAR(glm::length(DVec3(way)), distance, 1e-5 * (1 + glm::length(way)));
     }

@@ -36,6 +36,8 @@ class BlockPool {
   }
   [[nodiscard]] T* at(std::uint32_t offset) { return entries_.data() + offset; }
   [[nodiscard]] const T* at(std::uint32_t offset) const { return entries_.data() + offset; }
+  /// Entries of all blocks, free ones too.
+  [[nodiscard]] std::size_t size() const { return entries_.size(); }
   [[nodiscard]] std::size_t bytes() const { return entries_.capacity() * sizeof(T); }
 
  private:

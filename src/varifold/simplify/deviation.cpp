@@ -20,7 +20,7 @@ std::vector<float> step_deviations(const DetailedMesh& detailed, const Deviation
   std::vector<NearestTriangle> nearest(shares);
   const auto collapse = [&](std::uint32_t share, SampleCarrier& carrier) {
     float greatest = 0;
-    carrier.collapse(nearest[share], [&](std::uint32_t, const Vec3& residual) {
+    carrier.collapse(nearest[share], [&](const SampleCarrier::Sample&, const Vec3& residual) {
       greatest = std::max(greatest, glm::dot(residual, residual));
     });
     squared[share][carrier.level()] = greatest;

@@ -19,17 +19,19 @@ struct EnergySample {
   std::uint32_t attributes = kNone;  ///< its row of attribute values; kNone: has none
 };
 
-/// The samples of every owner (a face, an edge) side by side in one flat array.
-class SampleBlocks {
+/// The samples of every owner (a face, an edge) side by side in one flat array; room for at least
+/// `kSmallest` where there are any.
+template <class Sample, std::uint32_t kSmallest>
+class SamplesOfOwners {
  public:
-  explicit SampleBlocks(std::uint32_t owners = 0) : owners_(owners) {}
+  explicit SamplesOfOwners(std::uint32_t owners = 0) : owners_(owners) {}
 
-  [[nodiscard]] std::span<const EnergySample> of(std::uint32_t owner) const {
+  [[nodiscard]] std::span<const Sample> of(std::uint32_t owner) const {
     return {pool_.at(owners_[owner].offset), owners_[owner].size};
   }
 
   /// Amortised O(1); spans of of() do not outlive it.
-  void add(std::uint32_t owner, const EnergySample& sample) {
+  void add(std::uint32_t owner, const Sample& sample) {
     Owner& block = owners_[owner];
     if (block.size == 0) {
       block.offset = pool_.allocate(1);
@@ -46,7 +48,10 @@ class SampleBlocks {
   /// Moves everything together where most of the memory lies free: as samples gather on fewer
   /// owners, blocks of sizes that nobody needs any more are left. Amortised O(1) a sample.
   void tidy() {
-    if (pool_.bytes() <= kMinTidyBytes + 4 * live_ * sizeof(EnergySample)) return;
+    // What is moved together is at most so many times what lives; until twice that has gathered
+    // again, or half of it has gone, nothing is moved.
+    constexpr std::size_t kMostRoom = std::max(2u, kSmallest);
+    if (pool_.size() <= kMinTidyEntries + 2 * kMostRoom * live_) return;
     Pool tidied;
     for (Owner& block : owners_) {
       if (block.size == 0) continue;
@@ -75,14 +80,16 @@ class SampleBlocks {
   }
 
  private:
-  using Pool = BlockPool<EnergySample, 1>;
+  using Pool = BlockPool<Sample, kSmallest>;
   struct Owner {
     std::uint32_t offset = 0, size = 0;
   };
-  static constexpr std::size_t kMinTidyBytes = 1 << 16;
+  static constexpr std::size_t kMinTidyEntries = 1 << 12;
   std::vector<Owner> owners_;
   Pool pool_;
   std::size_t live_ = 0;  // samples of all owners
 };
+
+using SampleBlocks = SamplesOfOwners<EnergySample, 1>;
 
 }  // namespace varifold

@@ -25,20 +25,27 @@ VerticesByPlace::VerticesByPlace(const TriangleMesh& mesh) {
   class_of_ = std::move(weld.class_of);
 }
 
-std::vector<SurfaceSample> surface_samples(const DetailedMesh& detailed,
-                                           const SampleOptions& options) {
-  const TriangleMesh& mesh = detailed.mesh;
+namespace {
+
+// Some samples with one place along the Morton curve.
+struct SampleGroup {
+  Vec3 place;
+  std::uint32_t triangle;
+  std::uint32_t from, to;  // kNone; or the ends of the edge that it is on
+};
+
+void add_vertices(const TriangleMesh& mesh, const SampleOptions& options,
+                  std::vector<SampleGroup>& groups) {
   std::vector<std::uint32_t> triangle_of(mesh.vertex_count(), kNone);
   for (std::size_t slot = 0; slot < mesh.indices.size(); ++slot)
     triangle_of[mesh.indices[slot]] = static_cast<std::uint32_t>(slot / 3);
-  std::vector<Vec3> positions;
-  std::vector<std::uint32_t> triangles;
-  for (std::uint32_t v = options.share; v < mesh.vertex_count(); v += options.shares) {
-    if (triangle_of[v] == kNone) continue;
-    positions.push_back(mesh.positions[v]);
-    triangles.push_back(triangle_of[v]);
-  }
+  for (std::uint32_t v = options.share; v < mesh.vertex_count(); v += options.shares)
+    if (triangle_of[v] != kNone)
+      groups.push_back({mesh.positions[v], triangle_of[v], kNone, kNone});
+}
 
+void add_insides(const TriangleMesh& mesh, const SampleOptions& options,
+                 std::vector<SampleGroup>& groups) {
   // Uniform in the triangle: a point of the square, folded along its diagonal.
   for (std::size_t i = options.share;
        i < std::size_t{mesh.triangle_count()} * options.inside_triangles; i += options.shares) {
@@ -48,18 +55,75 @@ std::vector<SurfaceSample> surface_samples(const DetailedMesh& detailed,
     if (u + v > 1) u = 1 - u, v = 1 - v;
     const std::uint32_t* corner = &mesh.indices[3 * std::size_t{triangle}];
     const Vec3 a = mesh.positions[corner[0]];
-    positions.push_back(a + u * (mesh.positions[corner[1]] - a) +
-                        v * (mesh.positions[corner[2]] - a));
-    triangles.push_back(triangle);
+    groups.push_back({a + u * (mesh.positions[corner[1]] - a) + v * (mesh.positions[corner[2]] - a),
+                      triangle, kNone, kNone});
   }
+}
+
+// Every edge once, where no seam doubles it.
+void add_edges(const TriangleMesh& mesh, const SampleOptions& options,
+               std::vector<SampleGroup>& groups) {
+  // Slots by the lesser end of the edge to the triangle's next corner.
+  const auto next = [](std::uint32_t slot) { return slot % 3 == 2 ? slot - 2 : slot + 1; };
+  const auto slots = static_cast<std::uint32_t>(mesh.indices.size());
+  const auto ends = [&](std::uint32_t slot) {
+    return std::minmax({mesh.indices[slot], mesh.indices[next(slot)]});
+  };
+  std::vector<std::uint32_t> first(mesh.vertex_count() + 1, 0), by_end(slots);
+  for (std::uint32_t slot = 0; slot < slots; ++slot) ++first[ends(slot).first + 1];
+  for (std::size_t v = 1; v < first.size(); ++v) first[v] += first[v - 1];
+  std::vector<std::uint32_t> cursor(first.begin(), first.end() - 1);
+  for (std::uint32_t slot = 0; slot < slots; ++slot) by_end[cursor[ends(slot).first]++] = slot;
+
+  std::uint32_t number = 0;
+  std::vector<std::uint32_t> taken;
+  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+    taken.clear();
+    for (std::uint32_t i = first[v]; i < first[v + 1]; ++i) {
+      const std::uint32_t w = ends(by_end[i]).second;
+      if (std::find(taken.begin(), taken.end(), w) != taken.end()) continue;
+      taken.push_back(w);
+      if (number++ % options.shares == options.share)
+        groups.push_back({0.5f * (mesh.positions[v] + mesh.positions[w]), by_end[i] / 3, v, w});
+    }
+  }
+}
+
+void add_samples(const TriangleMesh& mesh, const SampleGroup& group, std::uint32_t on_edges,
+                 std::vector<SurfaceSample>& samples) {
+  if (group.from == kNone) {
+    samples.push_back({group.place, group.triangle});
+    return;
+  }
+  const Vec3 a = mesh.positions[group.from], way = mesh.positions[group.to] - a;
+  const float released_at = kReleaseAt * glm::dot(way, way);
+  for (std::uint32_t i = 1; i <= on_edges; ++i) {
+    const float part = static_cast<float>(i) / static_cast<float>(on_edges + 1);
+    samples.push_back(
+        {a + part * way, group.triangle, 2 * i == on_edges + 1 ? 2 * released_at : released_at});
+  }
+}
+
+}  // namespace
+
+std::vector<SurfaceSample> surface_samples(const DetailedMesh& detailed,
+                                           const SampleOptions& options) {
+  const TriangleMesh& mesh = detailed.mesh;
+  std::vector<SampleGroup> groups;
+  add_vertices(mesh, options, groups);
+  if (options.inside_triangles > 0) add_insides(mesh, options, groups);
+  const std::size_t points = groups.size();
+  if (options.on_edges > 0) add_edges(mesh, options, groups);
 
   // Along a Morton curve, so that the samples of a triangle share cache lines.
-  std::vector<std::uint32_t> all(positions.size());
+  std::vector<Vec3> places(groups.size());
+  std::vector<std::uint32_t> all(groups.size());
   std::iota(all.begin(), all.end(), 0u);
+  for (std::size_t i = 0; i < groups.size(); ++i) places[i] = groups[i].place;
   std::vector<SurfaceSample> samples;
-  samples.reserve(all.size());
-  for (const std::uint32_t i : morton_order(positions, all, bounds(mesh)))
-    samples.push_back({positions[i], triangles[i]});
+  samples.reserve(points + (groups.size() - points) * options.on_edges);
+  for (const std::uint32_t i : morton_order(places, all, bounds(mesh)))
+    add_samples(mesh, groups[i], options.on_edges, samples);
   return samples;
 }
 
@@ -69,12 +133,10 @@ SampleCarrier::SampleCarrier(const DetailedMesh& detailed, const VerticesByPlace
       places_(places),
       positions_(detailed.mesh.positions),
       replay_(detailed),
-      first_sample_(detailed.mesh.triangle_count(), kNone) {
-  samples_.reserve(samples.size());
-  for (const SurfaceSample& sample : samples) {
-    samples_.push_back({sample.position, kNone});
-    attach(static_cast<std::uint32_t>(samples_.size() - 1), sample.triangle);
-  }
+      samples_(detailed.mesh.triangle_count()) {
+  std::uint32_t number = 0;
+  for (const SurfaceSample& sample : samples)
+    samples_.add(sample.triangle, {sample.position, sample.released_at, number++});
 }
 
 std::span<const std::uint32_t> SampleCarrier::placed_by(std::uint32_t step) const {
@@ -93,16 +155,11 @@ void SampleCarrier::gather_before() {
   for (std::uint32_t v = sequence.vertices[level - 1]; v < sequence.vertices[level]; ++v)
     replay_.slots_of(v, slots_);
   for (const std::uint32_t v : placed_by(level - 1)) replay_.slots_of(v, slots_);
-  moving_ = kNone;
+  moving_.clear();
   for (const std::uint32_t slot : slots_) {
-    std::uint32_t sample = first_sample_[slot / 3];
-    first_sample_[slot / 3] = kNone;
-    while (sample != kNone) {
-      const std::uint32_t next = samples_[sample].next;
-      samples_[sample].next = moving_;
-      moving_ = sample;
-      sample = next;
-    }
+    const std::span<const Sample> samples = samples_.of(slot / 3);
+    moving_.insert(moving_.end(), samples.begin(), samples.end());
+    samples_.clear(slot / 3);
   }
 }
 
@@ -121,7 +178,8 @@ void SampleCarrier::gather_after() {
   const auto placed = placed_by(level);
   is_ear_ = replay_.changed().empty() && placed.empty();
   candidates_.clear();
-  if (moving_ == kNone) return;
+  doubled_areas_.clear();
+  if (moving_.empty()) return;
   slots_.assign(replay_.changed().begin(), replay_.changed().end());
   for (const std::uint32_t v : placed) replay_.slots_of(v, slots_);
   if (slots_.empty())
@@ -136,8 +194,9 @@ void SampleCarrier::gather_after() {
   }
   for (const std::uint32_t slot : slots_) {
     const std::uint32_t* corner = &replay_.corners()[3 * std::size_t{slot / 3}];
-    candidates_.push_back(
-        {slot / 3, {positions_[corner[0]], positions_[corner[1]], positions_[corner[2]]}});
+    const Vec3 a = positions_[corner[0]], b = positions_[corner[1]], c = positions_[corner[2]];
+    candidates_.push_back({slot / 3, {a, b, c}});
+    doubled_areas_.push_back(glm::length(glm::cross(b - a, c - a)));
   }
 }
 
@@ -154,8 +213,9 @@ bool carry_samples(const DetailedMesh& detailed, const CarryOptions& options,
   std::atomic<bool> cancelled{false};
   parallel_for(options.threads, shares, 1, [&](std::size_t begin, std::size_t) {
     const auto share = static_cast<std::uint32_t>(begin);
-    SampleCarrier carrier(detailed, places,
-                          surface_samples(detailed, {options.inside_triangles, share, shares}));
+    SampleCarrier carrier(
+        detailed, places,
+        surface_samples(detailed, {options.inside_triangles, options.on_edges, share, shares}));
     while (carrier.level() > 0 && !cancelled) {
       collapse(share, carrier);
       if (share == 0 && carrier.level() % kReportEvery == 0 &&

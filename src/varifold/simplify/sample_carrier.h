@@ -5,10 +5,14 @@
 
 #include <varifold/base/progress.h>
 #include <varifold/simplify/collapse_sequence.h>
+#include <varifold/simplify/sample_blocks.h>
 #include <varifold/simplify/sequence_replay.h>
 #include <varifold/simplify/star_triangles.h>
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -35,32 +39,51 @@ class VerticesByPlace {
 struct SurfaceSample {
   Vec3 position;
   std::uint32_t triangle;
+  /// The sample is let go when it comes to a triangle of this area, doubled; beside such ones its
+  /// neighbours tell as much.
+  float released_at = std::numeric_limits<float>::infinity();
 };
 
 struct SampleOptions {
   /// Points at random places of every triangle of the full mesh, beside its vertices. Their places
   /// depend on the triangle's number alone.
   std::uint32_t inside_triangles = 0;
+  /// Points that divide every edge into equal parts: where edges cross ridges and valleys of the
+  /// coarse mesh they are farther off than their ends. Let go on triangles whose doubled area is
+  /// kReleaseAt times the edge's length squared; the one at the middle at twice that.
+  std::uint32_t on_edges = 0;
   /// Only every `shares`th of them, from `share` on.
   std::uint32_t share = 0, shares = 1;
 };
 
-/// All vertices that have triangles, and points inside the triangles, along a Morton curve. O(n).
+/// See SampleOptions::on_edges.
+inline constexpr float kReleaseAt = 16;
+
+/// All vertices that have triangles, points inside the triangles and on the edges, along a Morton
+/// curve; those of an edge follow one another. O(n).
 [[nodiscard]] std::vector<SurfaceSample> surface_samples(const DetailedMesh& detailed,
                                                          const SampleOptions& options);
 
 /// Replays the collapses and moves the samples of the triangles that a collapse touches to the
-/// nearest of those that it leaves there. 28 bytes a triangle, 20 a vertex, 16 a sample.
+/// nearest of those that it leaves there. 32 bytes a triangle, 20 a vertex,
+/// 20 a sample and as much again for room to grow.
 class SampleCarrier {
  public:
+  struct Sample {
+    Vec3 position;
+    float released_at;
+    std::uint32_t number;
+  };
+
   SampleCarrier(const DetailedMesh& detailed, const VerticesByPlace& places,
                 const std::vector<SurfaceSample>& samples);
 
   [[nodiscard]] std::uint32_t level() const { return replay_.level(); }
 
   /// One collapse, to level() - 1. `nearest` finds the triangle that a sample goes to, as
-  /// NearestTriangle does; visit(sample, residual) gets each sample that the collapse moved, by its
-  /// number, and the way to the point where it is now attached.
+  /// NearestTriangle does; visit(sample, residual) gets each Sample that the collapse moved, and
+  /// the way to the point where it is now attached. A sample whose triangle is so great that it is
+  /// let go is visited for the last time.
   ///
   /// A collapse that leaves none of the triangles around its point and moves none (is_ear()) hands
   /// its samples to the triangles at its target.
@@ -70,28 +93,43 @@ class SampleCarrier {
     replay_.collapse();
     move_placed();
     gather_after();
-    if (moving_ != kNone) nearest.reset(candidates_);
-    for (std::uint32_t sample = moving_; sample != kNone;) {
-      const std::uint32_t next = samples_[sample].next;
-      Vec3 residual;
-      attach(sample, candidates_[nearest.find(samples_[sample].position, residual)].triangle);
+    if (moving_.empty()) return;
+    nearest.reset(candidates_);
+    const auto move_to = [&](const Sample& sample, std::size_t found, const Vec3& residual) {
+      if (doubled_areas_[found] < sample.released_at)
+        samples_.add(candidates_[found].triangle, sample);
       visit(sample, residual);
-      sample = next;
+    };
+    if constexpr (requires(NearestBatch batch) { nearest.find(batch); }) {
+      find_in_batches(nearest, move_to);
+    } else {
+      for (const Sample& sample : moving_) {
+        Vec3 residual;
+        const std::size_t found = nearest.find(sample.position, residual);
+        move_to(sample, found, residual);
+      }
     }
+    samples_.tidy();
   }
   [[nodiscard]] bool is_ear() const { return is_ear_; }
-  /// Of the samples' positions, and of the vertices at the present level.
-  [[nodiscard]] const Vec3& sample(std::uint32_t number) const { return samples_[number].position; }
+  /// Of a vertex at the present level.
   [[nodiscard]] const Vec3& position(std::uint32_t vertex) const { return positions_[vertex]; }
 
  private:
-  struct Sample {
-    Vec3 position;
-    std::uint32_t next;  // of the same triangle
-  };
-  void attach(std::uint32_t sample, std::uint32_t triangle) {
-    samples_[sample].next = first_sample_[triangle];
-    first_sample_[triangle] = sample;
+  template <class Nearest, class MoveTo>
+  void find_in_batches(const Nearest& nearest, const MoveTo& move_to) const {
+    NearestBatch batch{};
+    for (std::size_t begin = 0; begin < moving_.size(); begin += NearestBatch::kSize) {
+      const std::size_t count = std::min(NearestBatch::kSize, moving_.size() - begin);
+      for (std::size_t i = 0; i < count; ++i) {
+        const Vec3& p = moving_[begin + i].position;
+        batch.x[i] = p.x, batch.y[i] = p.y, batch.z[i] = p.z;
+      }
+      nearest.find(batch);
+      for (std::size_t i = 0; i < count; ++i)
+        move_to(moving_[begin + i], static_cast<std::size_t>(batch.found[i]),
+                Vec3(batch.way_x[i], batch.way_y[i], batch.way_z[i]));
+    }
   }
   [[nodiscard]] std::span<const std::uint32_t> placed_by(std::uint32_t step) const;
   void gather_before();
@@ -102,11 +140,11 @@ class SampleCarrier {
   const VerticesByPlace& places_;
   std::vector<Vec3> positions_;  // at the present level
   SequenceReplay replay_;
-  std::vector<std::uint32_t> first_sample_;  // per triangle
-  std::vector<Sample> samples_;
+  SamplesOfOwners<Sample, 4> samples_;  // of triangles
+  std::vector<Sample> moving_;
   std::vector<std::uint32_t> slots_;
   std::vector<StarTriangle> candidates_;  // for the samples that move
-  std::uint32_t moving_ = kNone;
+  std::vector<float> doubled_areas_;      // of each
   bool is_ear_ = false;
 };
 
@@ -116,7 +154,7 @@ class SampleCarrier {
 struct CarryOptions {
   int threads = 0;
   Progress progress;
-  std::uint32_t inside_triangles = 0;  ///< see SampleOptions
+  std::uint32_t inside_triangles = 0, on_edges = 0;  ///< see SampleOptions
 };
 
 /// Carries all samples from the full level to the base, sample_shares() carriers at a time:

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace varifold {
@@ -29,6 +30,22 @@ struct StarTriangle {
   std::array<Vec3, 3> corners;
 };
 
+/// Some points, and what is nearest to each: the number of its triangle, and the way there.
+struct NearestBatch {
+  static constexpr std::size_t kSize = 8;
+  alignas(32) float x[kSize], y[kSize], z[kSize];
+  alignas(32) std::int32_t found[kSize];
+  alignas(32) float way_x[kSize], way_y[kSize], way_z[kSize];
+};
+
+namespace star_triangles {
+
+/// With vector instructions where the processor has them; and without. At least one triangle.
+void find_nearest(std::span<const StarTriangle> triangles, NearestBatch& batch);
+void find_nearest_plain(std::span<const StarTriangle> triangles, NearestBatch& batch);
+
+}  // namespace star_triangles
+
 /// Which of some triangles is nearest to a point, and where. The first of those at equal distances.
 class NearestTriangle {
  public:
@@ -47,6 +64,8 @@ class NearestTriangle {
     way = nearest.point;
     return best;
   }
+  /// The same for many points, to the bit.
+  void find(NearestBatch& batch) const { star_triangles::find_nearest(*triangles_, batch); }
 
  private:
   [[nodiscard]] NearestPoint from(std::size_t i, const Vec3& p) const {

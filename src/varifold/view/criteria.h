@@ -101,6 +101,13 @@ struct LightCriterion {
   return change + light.specular * (std::pow(lit(gloss.high), light.shininess) - dullest);
 }
 
+/// How models whose bounds know in which direction a surface is off judge it (models/vdpm); others
+/// take it as a length.
+enum class DeviationMeasure : std::uint8_t {
+  kSeen,    ///< what is seen of it from the eye
+  kLength,  ///< all of it, whatever its direction
+};
+
 /// What a camera asks for: errors in pixels, more or less of them by where the region lies and how
 /// it is turned. All weights are factors on the error in pixels; 0 means "as coarse as can be".
 struct ViewCriterion {
@@ -114,6 +121,7 @@ struct ViewCriterion {
   float back_weight = 0;        ///< wholly turned away
   float silhouette_weight = 1;  ///< neither wholly turned away nor wholly turned to the eye
   std::optional<LightCriterion> light;
+  DeviationMeasure deviation = DeviationMeasure::kSeen;
 
   /// What urgency() is at most, whatever the normals and the light; cheap.
   [[nodiscard]] float bound(const Sphere& ball, float error) const {

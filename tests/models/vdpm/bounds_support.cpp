@@ -130,18 +130,42 @@ std::vector<bool> random_front(const DetailedMesh& detailed, std::uint64_t seed)
   return is_collapsed;
 }
 
+namespace {
+
+// Finds what another does, and notes how great the triangle is.
+template <class Nearest>
+struct AreaOfNearest {
+  Nearest nearest;
+  const std::vector<StarTriangle>* triangles = nullptr;
+  float doubled_area = 0;
+
+  void reset(const std::vector<StarTriangle>& all) { nearest.reset(*(triangles = &all)); }
+  std::size_t find(const Vec3& p, Vec3& way) {
+    const std::size_t found = nearest.find(p, way);
+    const std::array<Vec3, 3>& c = (*triangles)[found].corners;
+    doubled_area = glm::length(glm::cross(c[1] - c[0], c[2] - c[0]));
+    return found;
+  }
+};
+
+}  // namespace
+
 SampleHistory history_of_samples(const DetailedMesh& detailed, const StepBoundsOptions& options) {
   SampleHistory history;
   const VerticesByPlace places(detailed.mesh);
-  const auto samples = surface_samples(detailed, {.inside_triangles = options.inside_triangles});
+  const auto samples = surface_samples(
+      detailed, {.inside_triangles = options.inside_triangles, .on_edges = options.on_edges});
   for (const SurfaceSample& sample : samples) history.positions.push_back(sample.position);
   history.moves.resize(samples.size());
   SampleCarrier carrier(detailed, places, samples);
-  NearestTriangle nearest;
-  VerticalNearest vertical(unpack_cone(cone_code::code_of_axis(options.up)).axis);
+  AreaOfNearest<NearestTriangle> nearest;
+  AreaOfNearest<VerticalNearest> vertical{
+      VerticalNearest(unpack_cone(cone_code::code_of_axis(options.up)).axis)};
   while (carrier.level() > 0) {
-    const auto visit = [&](std::uint32_t sample, const Vec3& residual) {
-      history.moves[sample].push_back({carrier.level(), residual, carrier.is_ear()});
+    const auto visit = [&](const SampleCarrier::Sample& sample, const Vec3& residual) {
+      const float area = options.vertical ? vertical.doubled_area : nearest.doubled_area;
+      history.moves[sample.number].push_back(
+          {carrier.level(), residual, carrier.is_ear(), area >= sample.released_at});
     };
     if (options.vertical)
       carrier.collapse(vertical, visit);

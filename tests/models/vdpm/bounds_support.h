@@ -52,11 +52,12 @@ class Stars {
 /// other.
 [[nodiscard]] std::vector<bool> random_front(const DetailedMesh& detailed, std::uint64_t seed);
 
-/// Of every sample, which steps move it and how far it is off then, the finest step first.
+/// Of every sample, which steps move it and how far it is off then, the finest step first; the last
+/// of them may come to a triangle that is so great that the sample is let go.
 struct Move {
   std::uint32_t step;
   Vec3 residual;
-  bool is_ear;
+  bool is_ear, is_last;
 };
 struct SampleHistory {
   std::vector<Vec3> positions;

@@ -10,6 +10,9 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <set>
+#include <tuple>
+#include <utility>
 
 namespace varifold {
 namespace {
@@ -132,6 +135,7 @@ TEST_P(StepBoundsOf, SpacesHoldTheDeviationOfEverySampleThatTheStepMoves) {
 
 TEST(StepBounds, HoldSamplesOnSurfacesWhoseLevelVaries) {
   double tightest = std::numeric_limits<double>::infinity();
+  std::size_t tested = 0, samples = 0;
   for (const test::NamedSequence& named : test::sequences(Placement::kKept, 700)) {
     SCOPED_TRACE(named.name);
     const DetailedMesh& detailed = named.detailed;
@@ -142,13 +146,19 @@ TEST(StepBounds, HoldSamplesOnSurfacesWhoseLevelVaries) {
       const std::vector<bool> is_collapsed = test::random_front(detailed, seed);
       const SurfaceDistance surface(test::surface_without(detailed, is_collapsed));
       if (surface.empty()) continue;
+      samples += history.positions.size();
       for (std::size_t s = 0; s < history.positions.size(); ++s) {
         // The last step that moved it; what comes behind a step that is not done has not happened.
         double bound = 0;
+        bool is_let_go = false;
         for (const test::Move& move : history.moves[s]) {
           if (!is_collapsed[move.step]) break;
+          ASSERT_FALSE(is_let_go);
           bound = std::max(bounds[move.step].mu_length(), bounds[move.step].delta_length());
+          is_let_go = move.is_last;
         }
+        if (is_let_go) continue;
+        ++tested;
         const double distance = surface.distance(DVec3(history.positions[s]));
         ASSERT_LE(distance, bound * (1 + 1e-5) + 2e-6 * diagonal) << "sample " << s;
         if (distance > 1e-3 * diagonal) tightest = std::min(tightest, bound / distance);
@@ -156,6 +166,7 @@ TEST(StepBounds, HoldSamplesOnSurfacesWhoseLevelVaries) {
     }
   }
   EXPECT_LT(tightest, 1.01);
+  EXPECT_GT(tested, samples / 2);
 }
 
 TEST_P(StepBoundsOf, HoldSamplesAtEveryLevel) {
@@ -170,10 +181,13 @@ TEST_P(StepBoundsOf, HoldSamplesAtEveryLevel) {
       const SurfaceDistance surface(mesh_at_level(detailed, level));
       for (std::size_t s = 0; s < history.positions.size(); ++s) {
         double bound = 0;
+        bool is_let_go = false;
         for (const test::Move& move : history.moves[s]) {
           if (move.step < level) break;
           bound = std::max(bounds[move.step].mu_length(), bounds[move.step].delta_length());
+          is_let_go = move.is_last;
         }
+        if (is_let_go) continue;
         ASSERT_LE(surface.distance(DVec3(history.positions[s])),
                   bound * (1 + 1e-5) + 5e-6 * diagonal)
             << "sample " << s << " at level " << level;
@@ -218,7 +232,7 @@ TEST(StepBounds, OfAHeightFieldBoundVerticalDistances) {
       for (const test::Move& move : history.moves[s]) {
         if (!is_collapsed[move.step]) break;
         bound = bounds[move.step].delta_length();
-        is_beside = bounds[move.step].mu > 0;
+        is_beside = bounds[move.step].mu > 0 || move.is_last;
       }
       if (is_beside) continue;
       ++tested;
@@ -270,32 +284,53 @@ TEST(StepBounds, TellHowFarTheyAreAndCanBeCancelled) {
   }
 }
 
-TEST(SurfaceSamples, AreAllVerticesInUseAndPointsOfAllTriangles) {
+// Points that divide all edges into equal parts, each edge once.
+std::vector<Vec3> points_of_edges(const TriangleMesh& mesh, std::uint32_t count) {
+  std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
+  for (std::size_t i = 0; i < mesh.indices.size(); ++i)
+    edges.insert(std::minmax(mesh.indices[i], mesh.indices[i % 3 == 2 ? i - 2 : i + 1]));
+  std::vector<Vec3> points;
+  for (const auto& [v, w] : edges)
+    for (std::uint32_t i = 1; i <= count; ++i)
+      points.push_back(mesh.positions[v] + static_cast<float>(i) / static_cast<float>(count + 1) *
+                                               (mesh.positions[w] - mesh.positions[v]));
+  return points;
+}
+
+bool lies_before(const Vec3& a, const Vec3& b) {
+  return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+}
+
+TEST(SurfaceSamples, AreAllVerticesInUseAndPointsOfAllTrianglesAndEdges) {
   for (const test::NamedSequence& named : test::sequences(Placement::kKept, 3000)) {
     SCOPED_TRACE(named.name);
     const TriangleMesh& mesh = named.detailed.mesh;
     std::vector<SurfaceSample> samples;
     for (std::uint32_t share = 0; share < 3; ++share)
-      for (const SurfaceSample& sample : surface_samples(named.detailed, {2, share, 3}))
+      for (const SurfaceSample& sample : surface_samples(named.detailed, {2, 3, share, 3}))
         samples.push_back(sample);
     const auto order = [](const SurfaceSample& a, const SurfaceSample& b) {
       return std::memcmp(&a, &b, sizeof a) < 0;
     };
-    std::vector<SurfaceSample> whole = surface_samples(named.detailed, {.inside_triangles = 2});
+    std::vector<SurfaceSample> whole =
+        surface_samples(named.detailed, {.inside_triangles = 2, .on_edges = 3});
     std::sort(samples.begin(), samples.end(), order);
     std::sort(whole.begin(), whole.end(), order);
     ASSERT_EQ(samples.size(), whole.size());
     ASSERT_TRUE(whole.empty() ||
                 std::memcmp(samples.data(), whole.data(), whole.size() * sizeof whole[0]) == 0);
 
-    // On their triangles; two in each, and besides every vertex once.
+    // On their triangles; two in each, and besides every vertex once; three on every edge.
     std::vector<int> inside(mesh.triangle_count(), 0), at(mesh.vertex_count(), 0);
     for (const std::uint32_t v : mesh.indices) at[v] = -1;
+    std::vector<Vec3> on_edges;
     for (const SurfaceSample& sample : whole) {
       const std::uint32_t* c = &mesh.indices[3 * std::size_t{sample.triangle}];
       const auto corner = std::find_if(
           c, c + 3, [&](std::uint32_t v) { return mesh.positions[v] == sample.position; });
-      if (corner != c + 3)
+      if (std::isfinite(sample.released_at))
+        on_edges.push_back(sample.position);
+      else if (corner != c + 3)
         ++at[*corner];
       else
         ++inside[sample.triangle];
@@ -306,14 +341,18 @@ TEST(SurfaceSamples, AreAllVerticesInUseAndPointsOfAllTriangles) {
     }
     for (const int count : at) ASSERT_EQ(count, 0);
     for (const int count : inside) ASSERT_EQ(count, 2);
+    std::vector<Vec3> wanted = points_of_edges(mesh, 3);
+    std::sort(wanted.begin(), wanted.end(), lies_before);
+    std::sort(on_edges.begin(), on_edges.end(), lies_before);
+    ASSERT_EQ(on_edges, wanted);
   }
 }
 
 // Points inside the triangles tell of folds that no vertex of the full mesh does.
 TEST(StepBounds, PointsInsideTrianglesAreSamples) {
   const auto result = simplify(planet({{.triangles = 3000}}), {.measure_error = false});
-  const auto few = test::bounds_of(result->detailed, {.inside_triangles = 0});
-  const auto many = test::bounds_of(result->detailed, {.inside_triangles = 4});
+  const auto few = test::bounds_of(result->detailed, {.inside_triangles = 0, .on_edges = 0});
+  const auto many = test::bounds_of(result->detailed, {.inside_triangles = 4, .on_edges = 0});
   std::uint32_t greater = 0;
   for (std::size_t k = 0; k < few.size(); ++k)
     greater += std::max(many[k].mu, many[k].delta) > std::max(few[k].mu, few[k].delta);

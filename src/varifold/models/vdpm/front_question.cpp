@@ -100,7 +100,8 @@ bool FrontQuestion::differs_in_kind(const RefineCriteria& criteria, float tolera
   if (is_graded_ || sees != criteria_.view.has_value()) return true;
   if (sees) {
     const ViewCriterion &a = *criteria.view, &b = *criteria_.view;
-    if (is_graded(a) || a.outside_weight != b.outside_weight || a.back_weight != b.back_weight)
+    if (is_graded(a) || a.outside_weight != b.outside_weight || a.back_weight != b.back_weight ||
+        a.deviation != b.deviation)
       return true;
   }
   return !same_place(criteria.sphere, criteria_.sphere) ||

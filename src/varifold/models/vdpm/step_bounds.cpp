@@ -124,10 +124,10 @@ void gather_residuals(const DetailedMesh& detailed, const std::vector<StepBounds
   const Vec3 axis = bounds[step].own_cone().axis;
   const std::uint32_t target = detailed.sequence.target[bounds[step].vertex];
   DeviationGatherer space;
-  carrier.collapse(nearest, [&](std::uint32_t sample, Vec3 residual) {
+  carrier.collapse(nearest, [&](const SampleCarrier::Sample& sample, Vec3 residual) {
     // The triangles at the target of an ear are no part of its star: they may be others where
     // levels differ from place to place. The target is there.
-    if (carrier.is_ear()) residual = carrier.position(target) - carrier.sample(sample);
+    if (carrier.is_ear()) residual = carrier.position(target) - sample.position;
     const float along = glm::dot(residual, axis);
     const float across = glm::length(residual - along * axis);
     if constexpr (kVertical)
@@ -152,8 +152,9 @@ bool measure_spaces(const DetailedMesh& detailed, const StepBoundsOptions& optio
     else
       gather_residuals<false>(detailed, bounds, nearest[share], carrier, spaces[share]);
   };
-  if (!carry_samples(detailed, {options.threads, options.progress, options.inside_triangles},
-                     collapse))
+  if (!carry_samples(
+          detailed, {options.threads, options.progress, options.inside_triangles, options.on_edges},
+          collapse))
     return false;
   for (std::size_t k = 0; k < bounds.size(); ++k) {
     DeviationGatherer all;

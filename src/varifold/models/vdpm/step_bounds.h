@@ -3,7 +3,7 @@
 //
 // Based on: [Hoppe1997] section 4 (bounding spheres, normal cones, deviation spaces).
 // Differs: a step has bounds of its own star beside the nested ones; the nested ones follow the
-//   watch tree, not the tree of vertices; points inside the triangles are samples, too.
+//   watch tree, not the tree of vertices; points on the edges are samples, too.
 #pragma once
 
 #include <varifold/base/progress.h>
@@ -61,16 +61,18 @@ struct StepBoundsOptions {
   /// code has it.
   bool vertical = false;
   Vec3 up{0, 1, 0};  ///< not 0; any length
-  /// Seeded points in every triangle of the full mesh that are samples, beside all vertices.
-  std::uint32_t inside_triangles = 1;
+  /// Samples of the full mesh, beside all vertices: seeded points in every triangle, and points
+  /// on every edge (SampleOptions).
+  std::uint32_t inside_triangles = 0;
+  std::uint32_t on_edges = 3;
 };
 
 /// The bounds of every step. `watch_parent` has a step per step, a smaller one, or kNone.
 ///
 /// Guarantees, for every step:
-/// - every sample that its collapse moves is off by a vector of the step's deviation space, from
-///   the nearest point of the triangles that the collapse leaves of its star; where it leaves none,
-///   from its target;
+/// - every sample that its collapse moves (points of edges only while triangles are small, see
+///   SampleOptions) is off by a vector of the step's deviation space, from the nearest point of the
+///   triangles that the collapse leaves of its star; where it leaves none, from its target;
 /// - nested balls, errors and cones hold the own ones of all steps of the watch subtree.
 /// The centre of both balls is the position of `vertex` where the split makes it (with kept
 /// vertices, its only one).

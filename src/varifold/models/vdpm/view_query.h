@@ -67,6 +67,7 @@ inline constexpr float kFar = 1e30f;
 struct Numbers {
   float eye_x = 0, eye_y = 0, eye_z = 0;
   float unit_distance = 0, nearest = 0, reach = 0;
+  float as_seen = 1;  // 0: deviations are lengths, so that delta is a mu
   std::int32_t tests_frustum = 0, tests_facing = 0;
   float planes[Frustum::kSideCount][4] = {};
 };
@@ -102,13 +103,15 @@ struct LaneAnswer {
 
   // The error: the eye is inside the ball around the region from which mu is too large, or in the
   // torus from which delta is.
-  const float mu_size = smaller(region.mu * view.unit_distance, view.reach);
-  const float delta_size = region.delta * view.unit_distance;
+  const float mu = greater(region.mu, region.delta * (1 - view.as_seen));
+  const float delta = region.delta * view.as_seen;
+  const float mu_size = smaller(mu * view.unit_distance, view.reach);
+  const float delta_size = delta * view.unit_distance;
   const float gap = greater(distance - region.radius, view.nearest);
   const float mu_gap = gap - mu_size - margin;
   const float torus = distance_to_torus(aside, squared, delta_size) - region.radius;
   const float delta_gap = greater(torus, view.nearest - delta_size) - margin;
-  const bool is_directed = region.delta > region.mu;
+  const bool is_directed = delta > mu;
   const float error_gap = is_directed ? smaller(mu_gap, delta_gap) : mu_gap;
   // Without regard to the direction, which makes for slack that depends on the distance alone.
   const float round_gap = is_directed ? gap - smaller(delta_size, view.reach) - margin : mu_gap;
@@ -171,6 +174,7 @@ class ViewQuery {
         std::min(view.scale.focal_pixels() / std::max(tolerance, 1e-12f), 1e12f);
     numbers_.nearest = view.scale.near_distance();
     numbers_.reach = reach;
+    numbers_.as_seen = view.deviation == DeviationMeasure::kSeen ? 1 : 0;
     numbers_.tests_frustum = view.outside_weight < 1 ? 1 : 0;
     numbers_.tests_facing = view.back_weight < 1 ? 1 : 0;
     for (std::size_t i = 0; i < Frustum::kSideCount; ++i) {
