@@ -12,8 +12,14 @@ namespace varifold {
 /// Slot 3 t + c is corner c of triangle t.
 class SequenceHistory {
  public:
-  /// One replay of the sequence. O(n).
+  /// Changes in the order in which SequenceReplay finds them. O(n).
   explicit SequenceHistory(const DetailedMesh& detailed);
+
+  /// From changes that are known, in any order: those of vertex vertices[0] + i are changed[begin]
+  /// up to changed[end], these two being changed_begin[i] and changed_begin[i + 1]. O(n).
+  SequenceHistory(const CollapseSequence& sequence, std::vector<std::uint32_t> changed,
+                  std::vector<std::uint32_t> changed_begin,
+                  std::vector<std::uint32_t> first_corners);
 
   /// The slots that go from target[v] to v where v appears; v is no vertex of the base.
   [[nodiscard]] std::span<const std::uint32_t> changed(std::uint32_t v) const {
@@ -28,6 +34,8 @@ class SequenceHistory {
   [[nodiscard]] const std::vector<std::uint32_t>& first_corners() const { return corners_; }
 
  private:
+  void find_added(const CollapseSequence& sequence);
+
   std::uint32_t first_vertex_ = 0;
   std::vector<std::uint32_t> changed_, changed_begin_, added_, added_begin_, corners_;
 };

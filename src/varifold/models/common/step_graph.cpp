@@ -1,7 +1,12 @@
 #include <varifold/models/common/step_graph.h>
 
+#include <varifold/base/parallel.h>
+#include <varifold/models/common/dependency_walk.h>
 #include <varifold/simplify/sequence_replay.h>
 #include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
 
 namespace varifold {
 
@@ -15,6 +20,150 @@ std::span<const std::uint32_t> moved_vertices(const CollapseSequence& sequence,
   return {sequence.placed_vertex.data() + first, sequence.first_placed[step + 1] - first};
 }
 
+// Walks from the finest step down and finds all that each depends on.
+class CandidateWalk {
+ public:
+  CandidateWalk(const DetailedMesh& detailed, const SequenceHistory& history)
+      : sequence_(detailed.sequence),
+        history_(history),
+        steps_(sequence_.step_count()),
+        base_vertices_(steps_ == 0 ? 0 : sequence_.vertices[0]),
+        last_change_(detailed.mesh.triangle_count(), kNone) {
+    if (steps_ == 0) return;
+    if (sequence_.moves_vertices()) replay_.emplace(detailed);
+    if (sequence_.vertices[steps_] != base_vertices_ + steps_)
+      step_of_ = steps_of_vertices(sequence_);
+    waiting_.assign(steps_ + (replay_ ? base_vertices_ : 0), {});
+  }
+
+  // Appends those of the next step, in any order, some of them more than once.
+  void next(std::uint32_t step, std::vector<std::uint32_t>& candidates) {
+    prefetch(step);
+    // The steps that removed triangles around what this one removes or moves, ...
+    take_waiting(step, candidates);
+    for (const std::uint32_t v : moved_vertices(sequence_, step))
+      take_waiting(point_of(v), candidates);
+    // ... and those that made the triangles of its star what they are now.
+    if (replay_) change_around_moved(step, candidates);
+    for (std::uint32_t v = sequence_.vertices[step]; v < sequence_.vertices[step + 1]; ++v) {
+      for (const std::uint32_t slot : history_.changed(v)) change(slot / 3, step, candidates);
+      wait(sequence_.target[v], step);
+    }
+    for (const std::uint32_t triangle : history_.added(step)) {
+      change(triangle, step, candidates);
+      for (std::uint32_t corner = 0; corner < 3; ++corner)
+        wait(history_.first_corners()[3 * std::size_t{triangle} + corner], step);
+    }
+    // What moves a vertex comes after all that moved it before.
+    for (const std::uint32_t v : moved_vertices(sequence_, step)) wait(v, step);
+  }
+
+ private:
+  // The steps that wait for the next collapse of a point, the last one here; `next` tells where
+  // among `waited_` the one before it is.
+  struct Waiting {
+    std::uint32_t step = kNone, next = kNone;
+  };
+
+  // What is known of steps and triangles lies all over memory; what a later step needs is fetched
+  // early.
+  void prefetch(std::uint32_t step) const {
+    constexpr std::uint32_t kAhead = 16;
+    if (step < kAhead) return;
+    const std::uint32_t later = step - kAhead;
+    if (waiting_[later].next != kNone) __builtin_prefetch(&waited_[waiting_[later].next]);
+    for (const std::uint32_t slot : history_.changed(sequence_.vertices[later]))
+      __builtin_prefetch(&last_change_[slot / 3]);
+  }
+
+  // Notes that a step changes a triangle of its star.
+  void change(std::uint32_t triangle, std::uint32_t step, std::vector<std::uint32_t>& candidates) {
+    std::uint32_t& last = last_change_[triangle];
+    if (last != kNone && last != step) candidates.push_back(last);
+    last = step;
+  }
+
+  void change_around_moved(std::uint32_t step, std::vector<std::uint32_t>& candidates) {
+    slots_.clear();
+    for (const std::uint32_t v : moved_vertices(sequence_, step)) replay_->slots_of(v, slots_);
+    for (const std::uint32_t slot : slots_) change(slot / 3, step, candidates);
+    replay_->collapse();
+  }
+
+  // A point is the step that removes it, or, where vertices of the base move, the number of steps
+  // and the number of the vertex.
+  [[nodiscard]] std::uint32_t point_of(std::uint32_t vertex) const {
+    if (vertex < base_vertices_) return replay_ ? steps_ + vertex : kNone;
+    return step_of_.empty() ? vertex - base_vertices_ : step_of_[vertex];
+  }
+
+  // Who asks will be asked itself by whoever comes to the point next, so that its list can go.
+  void take_waiting(std::uint32_t point, std::vector<std::uint32_t>& candidates) {
+    for (Waiting at = std::exchange(waiting_[point], {}); at.step != kNone;
+         at = at.next == kNone ? Waiting() : waited_[at.next])
+      candidates.push_back(at.step);
+  }
+
+  // The next collapse that removes or moves that vertex will have to wait for `step`.
+  void wait(std::uint32_t vertex, std::uint32_t step) {
+    const std::uint32_t point = point_of(vertex);
+    if (point == kNone || point == step) return;
+    Waiting& last = waiting_[point];
+    if (last.step == step) return;
+    std::uint32_t next = kNone;
+    if (last.step != kNone) {
+      next = static_cast<std::uint32_t>(waited_.size());
+      waited_.push_back(last);
+    }
+    last = {step, next};
+  }
+
+  const CollapseSequence& sequence_;
+  const SequenceHistory& history_;
+  std::uint32_t steps_, base_vertices_;
+  std::vector<std::uint32_t> last_change_;  // per triangle
+  std::optional<SequenceReplay> replay_;    // where vertices move
+  std::vector<std::uint32_t> step_of_;      // where steps have several vertices
+  std::vector<Waiting> waiting_;            // per point
+  std::vector<Waiting> waited_;
+  std::vector<std::uint32_t> slots_;
+};
+
+// Leaves out candidates that a candidate nearer to the step depends on.
+class Reducer {
+ public:
+  explicit Reducer(std::uint32_t steps) : walk_(steps) {}
+
+  // Appends the others to `edges`, ascending.
+  void reduce(std::uint32_t step, std::span<std::uint32_t> candidates,
+              std::vector<std::uint32_t>& edges) {
+    std::sort(candidates.begin(), candidates.end());
+    candidates = candidates.first(static_cast<std::size_t>(
+        std::unique(candidates.begin(), candidates.end()) - candidates.begin()));
+    const std::size_t begin = edges.size();
+    walk_.begin(step);
+    for (const std::uint32_t candidate : candidates) walk_.want(candidate);
+    for (const std::uint32_t candidate : candidates) {
+      if (walk_.is_marked(candidate)) continue;
+      edges.push_back(candidate);
+      walk_.give_up_one();
+      if (!walk_.wants_more()) break;
+      walk_.follow(candidate, candidates.back());
+      if (!walk_.wants_more()) break;
+    }
+    walk_.set(step, std::span(edges).subspan(begin));
+  }
+
+ private:
+  DependencyWalk walk_;
+};
+
+// The candidates of a run of steps, the finest first.
+struct CandidateBlock {
+  std::uint32_t begin = 0, end = 0;
+  std::vector<std::uint32_t> candidates, ends;
+};
+
 }  // namespace
 
 std::vector<std::uint32_t> steps_of_vertices(const CollapseSequence& sequence) {
@@ -24,94 +173,43 @@ std::vector<std::uint32_t> steps_of_vertices(const CollapseSequence& sequence) {
   return steps;
 }
 
-StepGraph::StepGraph(const DetailedMesh& detailed)
-    : base_waits_(detailed.sequence.moves_vertices()),
-      step_of_(steps_of_vertices(detailed.sequence)) {
-  const CollapseSequence& sequence = detailed.sequence;
-  const std::uint32_t steps = sequence.step_count();
-  begin_.assign(steps, 0);
-  end_.assign(steps, 0);
-  first_waiting_.assign(steps + (base_waits_ ? sequence.vertices[0] : 0), kNone);
-  last_change_.assign(detailed.mesh.triangle_count(), kNone);
-  DependencyWalk walk(steps);
-  SequenceReplay replay(detailed);
-  for (std::uint32_t k = steps; k-- > 0;) {
-    find_candidates(sequence, replay, k);
-    reduce(k, walk);
-    replay.collapse();
-    enter(sequence, replay, k);
+StepGraph::StepGraph(const DetailedMesh& detailed, const SequenceHistory& history, int threads) {
+  // Blocks are found while those before them are reduced.
+  constexpr std::uint32_t kBlock = 8192;
+  const std::uint32_t steps = detailed.sequence.step_count();
+  begin_.assign(std::size_t{steps} + 1, 0);
+  edges_.reserve(2 * std::size_t{steps});
+  CandidateWalk walk(detailed, history);
+  Reducer reducer(steps);
+  const auto find = [&](CandidateBlock& block) {
+    block.candidates.clear();
+    block.ends.clear();
+    for (std::uint32_t k = block.end; k-- > block.begin;) {
+      walk.next(k, block.candidates);
+      block.ends.push_back(static_cast<std::uint32_t>(block.candidates.size()));
+    }
+  };
+  const auto reduce = [&](CandidateBlock& block) {
+    std::uint32_t first = 0, k = block.end;
+    for (const std::uint32_t end : block.ends) {
+      reducer.reduce(--k, std::span(block.candidates).subspan(first, end - first), edges_);
+      begin_[k] = static_cast<std::uint32_t>(edges_.size());
+      first = end;
+    }
+  };
+  std::array<CandidateBlock, 2> blocks;
+  for (std::uint32_t end = steps, turn = 0; end > 0 || !blocks[turn ^ 1u].ends.empty(); turn ^= 1) {
+    CandidateBlock &found = blocks[turn], &before = blocks[turn ^ 1u];
+    found.end = end;
+    end = found.begin = end - std::min(end, kBlock);
+    parallel_for(threads, 2, 1, [&](std::size_t piece, std::size_t) {
+      if (piece == 0)
+        find(found);
+      else
+        reduce(before);
+    });
+    before.ends.clear();
   }
-  waiting_ = {};
-  first_waiting_ = step_of_ = last_change_ = slots_ = candidates_ = {};
-}
-
-// What the collapse of `step` depends on, and in `slots_` the triangles around the vertices that
-// it moves.
-void StepGraph::find_candidates(const CollapseSequence& sequence, const SequenceReplay& replay,
-                                std::uint32_t step) {
-  // The steps that made the triangles of the star what they are now, ...
-  slots_.clear();
-  candidates_.clear();
-  for (std::uint32_t v = sequence.vertices[step]; v < sequence.vertices[step + 1]; ++v)
-    replay.slots_of(v, slots_);
-  for (const std::uint32_t v : moved_vertices(sequence, step)) replay.slots_of(v, slots_);
-  for (const std::uint32_t slot : slots_)
-    if (last_change_[slot / 3] != kNone) candidates_.push_back(last_change_[slot / 3]);
-  // ... and those that removed others around it.
-  take_waiting(step);
-  for (const std::uint32_t v : moved_vertices(sequence, step)) take_waiting(point_of(v));
-}
-
-// Notes what the collapse of `step`, just done, changed.
-void StepGraph::enter(const CollapseSequence& sequence, const SequenceReplay& replay,
-                      std::uint32_t step) {
-  for (const std::uint32_t slot : replay.changed()) last_change_[slot / 3] = step;
-  const auto moved = moved_vertices(sequence, step);
-  if (!moved.empty())
-    for (const std::uint32_t slot : slots_) last_change_[slot / 3] = step;
-  for (const std::uint32_t triangle : replay.removed())
-    for (std::uint32_t corner = 0; corner < 3; ++corner)
-      wait(replay.corners()[3 * std::size_t{triangle} + corner], step);
-  for (std::uint32_t v = sequence.vertices[step]; v < sequence.vertices[step + 1]; ++v)
-    wait(sequence.target[v], step);
-  // What moves a vertex comes after all that moved it before.
-  for (const std::uint32_t v : moved) wait(v, step);
-}
-
-std::uint32_t StepGraph::point_of(std::uint32_t vertex) const {
-  if (step_of_[vertex] != kNone) return step_of_[vertex];
-  return base_waits_ ? step_count() + vertex : kNone;
-}
-
-// Who asks will be asked itself by whoever comes to the point next, so that its list can go.
-void StepGraph::take_waiting(std::uint32_t point) {
-  for (std::uint32_t i = first_waiting_[point]; i != kNone; i = waiting_[i].next)
-    candidates_.push_back(waiting_[i].step);
-  first_waiting_[point] = kNone;
-}
-
-// The next collapse that removes or moves that vertex will have to wait for `step`.
-void StepGraph::wait(std::uint32_t vertex, std::uint32_t step) {
-  const std::uint32_t waits = point_of(vertex);
-  if (waits == kNone || waits == step) return;
-  std::uint32_t& first = first_waiting_[waits];
-  if (first != kNone && waiting_[first].step == step) return;
-  waiting_.push_back({step, first});
-  first = static_cast<std::uint32_t>(waiting_.size() - 1);
-}
-
-// Enters the candidates but those that a candidate nearer to the step depends on.
-void StepGraph::reduce(std::uint32_t step, DependencyWalk& walk) {
-  std::sort(candidates_.begin(), candidates_.end());
-  candidates_.erase(std::unique(candidates_.begin(), candidates_.end()), candidates_.end());
-  begin_[step] = static_cast<std::uint32_t>(edges_.size());
-  walk.begin(step);
-  for (const std::uint32_t candidate : candidates_) {
-    if (walk.is_marked(candidate)) continue;
-    edges_.push_back(candidate);
-    walk.follow(candidate, candidates_.back(), [&](std::uint32_t s) { return of(s); });
-  }
-  end_[step] = static_cast<std::uint32_t>(edges_.size());
 }
 
 }  // namespace varifold

@@ -71,6 +71,7 @@ const char* dependency_fault(std::span<const std::uint32_t> words, const LevelTa
   if (const char* fault = lists.read(words, steps)) return fault;
   const ComingVertices coming(levels);
   DependencyWalk walk(steps);
+  for (std::uint32_t k = 0; k < steps; ++k) walk.set(k, lists.of(k));
   for (std::uint32_t k = 0; k < steps; ++k) {
     if (coming.first[k] == kNone) continue;
     // Lists go from newer to older vertices, so the first one is of the finest step.
@@ -78,8 +79,7 @@ const char* dependency_fault(std::span<const std::uint32_t> words, const LevelTa
     const auto own = lists.of(k);
     walk.begin(k);
     for (const std::uint32_t finer : own)
-      if (!walk.is_marked(finer))
-        walk.follow(finer, last, [&](std::uint32_t s) { return lists.of(s); });
+      if (!walk.is_marked(finer)) walk.follow(finer, last);
     for (std::uint32_t v = coming.first[k]; v != kNone; v = coming.next[v]) {
       const std::uint32_t step = coming.step_of[v];
       if (!walk.is_marked(step) && !std::binary_search(own.begin(), own.end(), step))

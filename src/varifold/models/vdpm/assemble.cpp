@@ -1,6 +1,5 @@
 #include <varifold/models/vdpm/assemble.h>
 
-#include <varifold/simplify/sequence_history.h>
 #include <algorithm>
 
 namespace varifold {
@@ -28,32 +27,26 @@ class StepLists {
   std::vector<std::uint32_t> begin_, steps_;
 };
 
-// Walks up: each step's change, as the triangles are at the finer of its two levels.
-class ChangeWalk {
- public:
-  explicit ChangeWalk(const DetailedMesh& detailed)
-      : sequence_(detailed.sequence), history_(detailed), corners_(history_.first_corners()) {}
-
-  [[nodiscard]] const std::vector<std::uint32_t>& first_corners() const { return corners_; }
-
-  // Sets `changed` and `added` of the next step.
-  void next(std::uint32_t step, StepChange& change) const {
-    change.changed.clear();
-    change.added.clear();
-    for (std::uint32_t v = sequence_.vertices[step]; v < sequence_.vertices[step + 1]; ++v)
-      for (const std::uint32_t slot : history_.changed(v))
-        change.changed.push_back({slot / 3, slot % 3, v});
-    for (const std::uint32_t t : history_.added(step))
-      change.added.push_back({t,
-                              {corners_[3 * std::size_t{t}], corners_[3 * std::size_t{t} + 1],
-                               corners_[3 * std::size_t{t} + 2]}});
+// A step's change, as the triangles are at the finer of its two levels; slots ascending.
+void set_change(const CollapseSequence& sequence, const SequenceHistory& history,
+                std::uint32_t step, StepChange& change) {
+  const std::vector<std::uint32_t>& corners = history.first_corners();
+  change.changed.clear();
+  change.added.clear();
+  for (std::uint32_t v = sequence.vertices[step]; v < sequence.vertices[step + 1]; ++v) {
+    const std::size_t first = change.changed.size();
+    for (const std::uint32_t slot : history.changed(v))
+      change.changed.push_back({slot / 3, slot % 3, v});
+    std::sort(change.changed.begin() + static_cast<std::ptrdiff_t>(first), change.changed.end(),
+              [](const StepChange::Corner& a, const StepChange::Corner& b) {
+                return a.triangle != b.triangle ? a.triangle < b.triangle : a.corner < b.corner;
+              });
   }
-
- private:
-  const CollapseSequence& sequence_;
-  SequenceHistory history_;
-  const std::vector<std::uint32_t>& corners_;
-};
+  for (const std::uint32_t t : history.added(step))
+    change.added.push_back({t,
+                            {corners[3 * std::size_t{t}], corners[3 * std::size_t{t} + 1],
+                             corners[3 * std::size_t{t} + 2]}});
+}
 
 void link_placements(const CollapseSequence& sequence, ViewDependentMeshData& data) {
   if (!sequence.moves_vertices()) return;
@@ -63,7 +56,7 @@ void link_placements(const CollapseSequence& sequence, ViewDependentMeshData& da
   data.finer.assign(data.placed_vertex.size(), kNone);
   // Walks down: a vertex looks as the last step that moved it made it. What removes it comes after
   // all of these.
-  data.first_look.assign(data.mesh.vertex_count(), kNone);
+  data.first_look.assign(sequence.target.size(), kNone);
   for (std::uint32_t k = sequence.step_count(); k-- > 0;) {
     for (std::uint32_t j = data.first_placed[k]; j < data.first_placed[k + 1]; ++j) {
       std::uint32_t& look = data.first_look[data.placed_vertex[j]];
@@ -93,34 +86,31 @@ std::vector<std::uint32_t> watch_parents(const StepGraph& graph) {
   return parents;
 }
 
-ViewDependentMeshData assemble_steps(const DetailedMesh& detailed, const StepGraph& graph) {
+ViewDependentMeshData assemble_steps(const DetailedMesh& detailed, const SequenceHistory& history,
+                                     const StepGraph& graph,
+                                     std::span<const std::uint32_t> watch_parent) {
   const CollapseSequence& sequence = detailed.sequence;
   const std::uint32_t steps = sequence.step_count();
   ViewDependentMeshData data;
-  data.mesh = detailed.mesh;
-  data.mesh.indices = {};
-  data.levels = LevelTable(sequence);
   link_placements(sequence, data);
-
-  const std::vector<std::uint32_t> parents = watch_parents(graph);
   const StepLists required(steps, [&](const auto& enter) {
     for (std::uint32_t k = 0; k < steps; ++k)
       for (const std::uint32_t finer : graph.of(k)) enter(finer, k);
   });
   const StepLists watched(steps, [&](const auto& enter) {
     for (std::uint32_t k = 0; k < steps; ++k)
-      if (parents[k] != kNone) enter(parents[k], k);
+      if (watch_parent[k] != kNone) enter(watch_parent[k], k);
   });
   for (std::uint32_t k = 0; k < steps; ++k)
-    if (parents[k] == kNone) data.watch_roots.push_back(k);
+    if (watch_parent[k] == kNone) data.watch_roots.push_back(k);
 
-  const ChangeWalk walk(detailed);
-  assemble_base(sequence, walk.first_corners(), data);
-  data.records.begin(detailed.mesh.vertex_count(), detailed.mesh.triangle_count(), steps,
+  assemble_base(sequence, history.first_corners(), data);
+  data.records.begin(detailed.mesh.vertex_count(),
+                     static_cast<std::uint32_t>(sequence.triangle_level.size()), steps,
                      detailed.mesh.ranges.size() < 2);
   StepChange change;
   for (std::uint32_t k = 0; k < steps; ++k) {
-    walk.next(k, change);
+    set_change(sequence, history, k, change);
     change.required.assign(required.of(k).begin(), required.of(k).end());
     change.watched.assign(watched.of(k).begin(), watched.of(k).end());
     const std::uint32_t vertex = sequence.vertices[k];

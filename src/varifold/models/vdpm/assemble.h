@@ -4,6 +4,7 @@
 #include <varifold/models/common/step_graph.h>
 #include <varifold/models/vdpm/view_dependent_mesh.h>
 #include <varifold/simplify/collapse_sequence.h>
+#include <varifold/simplify/sequence_history.h>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -13,8 +14,10 @@ namespace varifold {
 /// The watch tree: per step the finest of those that it requires, or kNone. O(edges).
 [[nodiscard]] std::vector<std::uint32_t> watch_parents(const StepGraph& graph);
 
-/// The model without bounds. One replay of the sequence; O(n).
+/// All of the model but its mesh, its levels and its bounds. `watch_parent`: of the graph. O(n).
 [[nodiscard]] ViewDependentMeshData assemble_steps(const DetailedMesh& detailed,
-                                                   const StepGraph& graph);
+                                                   const SequenceHistory& history,
+                                                   const StepGraph& graph,
+                                                   std::span<const std::uint32_t> watch_parent);
 
 }  // namespace varifold

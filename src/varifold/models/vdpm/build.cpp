@@ -7,10 +7,19 @@ namespace varifold {
 
 ViewDependentMesh build_view_dependent_mesh(const DetailedMesh& detailed,
                                             const StepBoundsOptions& options) {
-  const StepGraph graph(detailed);
+  ViewDependentMeshData data;
+  std::vector<std::uint32_t> parents;
+  {
+    const SequenceHistory history(detailed);
+    const StepGraph graph(detailed, history, options.threads);
+    parents = watch_parents(graph);
+    data = assemble_steps(detailed, history, graph, parents);
+  }
   std::vector<StepBounds> bounds;
-  if (!measure_step_bounds(detailed, watch_parents(graph), options, bounds)) return {};
-  ViewDependentMeshData data = assemble_steps(detailed, graph);
+  if (!measure_step_bounds(detailed, parents, options, bounds)) return {};
+  data.mesh = detailed.mesh;
+  data.mesh.indices = {};
+  data.levels = LevelTable(detailed.sequence);
   data.bounds.reserve(bounds.size());
   for (const StepBounds& b : bounds)
     data.bounds.push_back(

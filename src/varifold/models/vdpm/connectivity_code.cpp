@@ -94,10 +94,16 @@ void write_division(const SplitFrame& frame, std::span<const std::uint32_t> take
     });
 }
 
-bool read_division(const SplitFrame& frame, GrowingSurface& surface, BitReader& bits) {
+bool read_division(const SplitFrame& frame, GrowingSurface& surface, BitReader& bits,
+                   std::vector<std::uint32_t>& taken, std::vector<std::uint32_t>& taken_end) {
   for (std::uint32_t v = frame.first_vertex; v < frame.end_vertex; ++v) {
-    surface.divide(frame.target[v], v, [&](std::uint32_t) { return bits.bits(1) != 0; });
+    surface.divide(frame.target[v], v, [&](std::uint32_t slot) {
+      const bool goes = bits.bits(1) != 0;
+      if (goes) taken.push_back(slot);
+      return goes;
+    });
     if (bits.exhausted()) return false;
+    taken_end.push_back(static_cast<std::uint32_t>(taken.size()));
   }
   return true;
 }

@@ -74,8 +74,11 @@ struct NewTriangle {
 /// slot that goes, kNone for others. Changes the surface.
 void write_division(const SplitFrame& frame, std::span<const std::uint32_t> takes,
                     GrowingSurface& surface, BitWriter& bits);
-/// False where the bits end.
-[[nodiscard]] bool read_division(const SplitFrame& frame, GrowingSurface& surface, BitReader& bits);
+/// Appends the slots that go to `taken`, those of each vertex in one row, and where each row ends
+/// to `taken_end`. False where the bits end.
+[[nodiscard]] bool read_division(const SplitFrame& frame, GrowingSurface& surface, BitReader& bits,
+                                 std::vector<std::uint32_t>& taken,
+                                 std::vector<std::uint32_t>& taken_end);
 
 void write_triangle(const SplitFrame& frame, const NewTriangle& triangle,
                     const GrowingSurface& surface, BitWriter& bits);

@@ -22,7 +22,7 @@ tl::unexpected<Error> pass(Error& error) { return tl::unexpected<Error>(std::mov
 // Reads the parts in their order; what each needs of those before it is in the members.
 class Decoder {
  public:
-  explicit Decoder(std::span<const std::byte> bytes) : section_(bytes) {}
+  Decoder(std::span<const std::byte> bytes, int threads) : section_(bytes), threads_(threads) {}
 
   Result<ViewDependentMesh> decode() {
     if (as_text(section_.take_bytes(vdpm::kTag.size())) != vdpm::kTag)
@@ -34,7 +34,12 @@ class Decoder {
     std::vector<PackedBounds> bounds(levels_.finest_level());
     if (auto taken = take_bounds(bounds); !taken) return pass(taken.error());
     if (!section_.at_end()) return section_.fault("there are bytes behind the end");
-    ViewDependentMeshData data = assemble_steps(detailed_, StepGraph(detailed_));
+    const SequenceHistory history(detailed_.sequence, std::move(taken_), std::move(taken_end_),
+                                  std::move(first_corners_));
+    const StepGraph graph(detailed_, history, threads_);
+    ViewDependentMeshData data = assemble_steps(detailed_, history, graph, watch_parents(graph));
+    data.mesh = std::move(detailed_.mesh);
+    data.mesh.indices = {};
     data.levels = std::move(levels_);  // the sequence has no errors
     data.bounds = std::move(bounds);
     return ViewDependentMesh(std::move(data));
@@ -122,7 +127,9 @@ class Decoder {
     CollapseSequence& sequence = detailed_.sequence;
     sequence.triangle_level.assign(triangles(), 0);
     GrowingSurface surface(detailed_.mesh.vertex_count(), triangles());
+    first_corners_.resize(std::size_t{3} * triangles());
     if (!add_base(corners, surface)) return false;
+    taken_end_.assign(1, 0);
     BitReader bits(steps);
     SplitFrame frame;
     frame.target = levels_.targets();
@@ -157,23 +164,30 @@ class Decoder {
       for (std::uint32_t i = 0; i < base_of_range_[r]; ++i, at += 3) {
         const std::uint32_t a = corners[at], b = corners[at + 1], c = corners[at + 2];
         if (std::max({a, b, c}) >= vertices || a == b || b == c || c == a) return false;
-        surface.add(first + i, {a, b, c});
+        add(first + i, {a, b, c}, surface);
       }
     }
     return true;
   }
 
+  void add(std::uint32_t triangle, const std::array<std::uint32_t, 3>& corners,
+           GrowingSurface& surface) {
+    surface.add(triangle, corners);
+    std::copy(corners.begin(), corners.end(),
+              first_corners_.begin() + 3 * std::ptrdiff_t{triangle});
+  }
+
   bool read_step(std::uint32_t step, const SplitFrame& frame, GrowingSurface& surface,
                  BitReader& bits) {
     CollapseSequence& sequence = detailed_.sequence;
-    if (!vdpm::read_division(frame, surface, bits)) return false;
+    if (!vdpm::read_division(frame, surface, bits, taken_, taken_end_)) return false;
     const std::uint32_t added = levels_.step(step).triangles;
     NewTriangle triangle;
     for (std::uint32_t i = 0; i < added; ++i) {
       if (!vdpm::read_triangle(frame, surface, bits, triangle) || bits.exhausted()) return false;
       std::uint32_t& number = next_of_range_[triangle.range];
       if (number == end_of_range_[triangle.range]) return false;
-      surface.add(number, triangle.corners);
+      add(number, triangle.corners, surface);
       sequence.triangle_level[number++] = step + 1;
     }
     if (!moves_vertices_) return true;
@@ -199,17 +213,20 @@ class Decoder {
   }
 
   SectionReader section_;
+  int threads_;
   DetailedMesh detailed_;
   LevelTable levels_;
   bool moves_vertices_ = false;
   std::vector<std::uint32_t> base_of_range_;
-  std::vector<std::uint32_t> next_of_range_, end_of_range_;  // numbers of triangles to come
+  std::vector<std::uint32_t> taken_, taken_end_, first_corners_;  // a SequenceHistory
+  std::vector<std::uint32_t> next_of_range_, end_of_range_;       // numbers of triangles to come
 };
 
 }  // namespace
 
-Result<ViewDependentMesh> decode_view_dependent_mesh(std::span<const std::byte> bytes) {
-  return Decoder(bytes).decode();
+Result<ViewDependentMesh> decode_view_dependent_mesh(std::span<const std::byte> bytes,
+                                                     int threads) {
+  return Decoder(bytes, threads).decode();
 }
 
 }  // namespace varifold

@@ -15,8 +15,9 @@ namespace varifold {
 
 /// Errors: kInvalidInput with the offset of the fault. Accepts any bytes: no more is allocated than
 /// they justify, and steps of a model that is returned may be split and collapsed in any order that
-/// its requirements allow. Those are found anew from the sequence: O(n) expected.
-[[nodiscard]] Result<ViewDependentMesh> decode_view_dependent_mesh(
-    std::span<const std::byte> bytes);
+/// its requirements allow. Those are found anew from the sequence: O(n) expected. The same for any
+/// number of threads (0 = all).
+[[nodiscard]] Result<ViewDependentMesh> decode_view_dependent_mesh(std::span<const std::byte> bytes,
+                                                                   int threads = 0);
 
 }  // namespace varifold
