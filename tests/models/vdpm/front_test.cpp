@@ -347,6 +347,7 @@ TEST(KeyScan, VectorsFindWhatThePlainFormFinds) {
 void expect_plain_is_the_same(const ViewDependentMesh& model, const ViewQuery& view,
                               const Odometers& odometers) {
   RegionBatch batch;
+  batch.keeps = true;
   for (std::uint32_t step = 0; step + RegionBatch::kSize <= model.step_count(); ++step) {
     for (std::uint32_t i = 0; i < RegionBatch::kSize; ++i) {
       batch.bounds[i] = &model.packed_bounds(step + i);

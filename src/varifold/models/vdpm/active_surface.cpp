@@ -46,7 +46,7 @@ void ActiveSurface::collapse(std::uint32_t step) {
 void ActiveSurface::split_connectivity(std::uint32_t step) {
   const LevelTable& levels = model_->levels();
   const StepRecords& records = model_->data().records;
-  const std::uint32_t vertex = levels.vertex_count(step);
+  const std::uint32_t vertex = model_->first_vertex(step);
   const StepRecords::View record = records.find(step);
   const std::uint32_t vertices = record.is_short ? 1 : levels.step(step).vertices;
   for (std::uint32_t i = 0; i < vertices; ++i) add_vertex(vertex + i);
@@ -65,7 +65,7 @@ void ActiveSurface::split_connectivity(std::uint32_t step) {
 void ActiveSurface::collapse_connectivity(std::uint32_t step) {
   const LevelTable& levels = model_->levels();
   const StepRecords& records = model_->data().records;
-  const std::uint32_t vertex = levels.vertex_count(step);
+  const std::uint32_t vertex = model_->first_vertex(step);
   const StepRecords::View record = records.find(step);
   records.for_each_changed(
       record, vertex, [&](std::uint32_t triangle, std::uint32_t corner, std::uint32_t v) {

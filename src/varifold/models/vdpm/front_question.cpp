@@ -43,6 +43,7 @@ void ask_in_batches(const ViewDependentMesh& model, std::span<const std::uint32_
                     std::span<const float> keep, const Test& test, FrontAnswers& answers) {
   constexpr std::size_t kLanes = RegionBatch::kSize;
   RegionBatch batch;
+  batch.keeps = !keep.empty();
   AnswerBatch answer;
   for (std::size_t begin = 0; begin < steps.size(); begin += kLanes) {
     const std::size_t lanes = std::min(kLanes, steps.size() - begin);

@@ -54,6 +54,7 @@ inline float sine_of(float cosine) {
 inline float first_length(std::uint32_t word) { return error_of_code(word & 0xffffu); }
 inline float second_length(std::uint32_t word) { return error_of_code(word >> 16u); }
 
+template <bool kKeeps>
 struct Own {
   static view_query::Lane lane(const Lanes& lanes, const float* keep, std::size_t i) {
     const Axis axis = unpack_axis(lanes.cone[i]);
@@ -69,7 +70,7 @@ struct Own {
             sine_of(cosine),
             first_length(lanes.errors[i]),
             second_length(lanes.errors[i]),
-            keep[i]};
+            kKeeps ? keep[i] : 0};
   }
 };
 
@@ -221,7 +222,8 @@ void test_regions(const ViewQuery& query, const Odometers& odometers, const Regi
 
 void test_own_regions(const ViewQuery& query, const Odometers& odometers,
                       const RegionBatch& regions, AnswerBatch& answers) {
-  test_regions<Own>(query, odometers, regions, answers);
+  regions.keeps ? test_regions<Own<true>>(query, odometers, regions, answers)
+                : test_regions<Own<false>>(query, odometers, regions, answers);
 }
 
 void test_nested_regions(const ViewQuery& query, const Odometers& odometers,
@@ -231,7 +233,7 @@ void test_nested_regions(const ViewQuery& query, const Odometers& odometers,
 
 void test_own_regions_plain(const ViewQuery& query, const Odometers& odometers,
                             const RegionBatch& regions, AnswerBatch& answers) {
-  test_plain<Own>(query, odometers, regions, answers);
+  test_plain<Own<true>>(query, odometers, regions, answers);
 }
 
 void test_nested_regions_plain(const ViewQuery& query, const Odometers& odometers,

@@ -15,7 +15,8 @@ struct RegionBatch {
   static constexpr std::size_t kSize = 8;
   std::array<const PackedBounds*, kSize> bounds{};
   std::array<const Vec3*, kSize> centers{};
-  std::array<float, kSize> keep{};  ///< 0 for nested regions
+  bool keeps = false;
+  std::array<float, kSize> keep{};  ///< of own regions; zeros unless `keeps`
 };
 
 /// Their answers: asked, and the keys, as ViewQuery::test() and Odometers::key() give them, to the

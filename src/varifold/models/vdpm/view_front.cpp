@@ -11,7 +11,7 @@ namespace {
 // Keys that are reached always, and never.
 constexpr float kAlways = 0;
 const ViewAnswer kNever{false, Mover::kNothing, 0};
-constexpr std::uint32_t kTendedPerFrame = 8;
+constexpr std::uint32_t kTendedPerFrame = 4;
 
 }  // namespace
 
