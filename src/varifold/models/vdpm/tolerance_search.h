@@ -41,7 +41,8 @@ class ToleranceSearch {
   }
   void learn(std::int32_t from, std::int32_t to, std::uint32_t before, std::uint32_t after);
 
-  std::int32_t step_ = 0;
+  // The first frame comes from the coarse side, where trials are cheap.
+  std::int32_t step_ = 12 * kStepsPerOctave;
   double triangles_per_step_ = 0.0025;  // by which part the triangles change with a step
 };
 

@@ -12,6 +12,7 @@ namespace {
 constexpr float kAlways = 0;
 const ViewAnswer kNever{false, Mover::kNothing, 0};
 constexpr std::uint32_t kTendedPerFrame = 4;
+constexpr std::uint32_t kManySlots = 5;  // for each step that is split; two to four are common
 
 }  // namespace
 
@@ -260,9 +261,10 @@ bool ViewFront::close(std::uint32_t slot) {
   return true;
 }
 
-// A few slots a frame, in turn, and their ancestors.
+// A few slots a frame, in turn, and their ancestors; more where a front has left many behind.
 void ViewFront::tend() {
-  const std::uint32_t count = std::min(slot_count(), kTendedPerFrame + slot_count() / 512);
+  const std::uint32_t part = slot_count() / kManySlots > split_count_ ? 16 : 512;
+  const std::uint32_t count = std::min(slot_count(), kTendedPerFrame + slot_count() / part);
   for (std::uint32_t i = 0; i < count; ++i) {
     if (window_ >= slot_count()) window_ = 0;
     std::uint32_t step = slots_[window_++].step;
@@ -335,6 +337,7 @@ void ViewFront::split_one(std::uint32_t step, Frame& frame) {
   else
     frame.surface.split(step);
   ++frame.statistics.splits;
+  ++split_count_;
   if ((flags & kAsked) == 0) ++frame.statistics.forced_splits;
   model_->for_each_required(step, [&](std::uint32_t required) {
     const std::uint32_t at = slot_of_[required];
@@ -355,6 +358,7 @@ void ViewFront::collapse(std::uint32_t step, Frame& frame) {
   else
     frame.surface.collapse(step);
   ++frame.statistics.collapses;
+  --split_count_;
   const std::uint32_t slot = slot_of_[step];
   slots_[slot].flags &= static_cast<std::uint8_t>(~kSplit);
   model_->for_each_required(step, [&](std::uint32_t required) {
@@ -370,6 +374,7 @@ void ViewFront::set_level(std::uint32_t level) {
   waiting_.clear();
   window_ = 0;
   has_question_ = false;
+  split_count_ = level;
   for (std::uint32_t step = 0; step < level; ++step) {
     add_slot(step, kSplit);
     model_->for_each_required(step, [&](std::uint32_t r) { ++slots_[slot_of_[r]].dependents; });

@@ -142,6 +142,8 @@ class ViewFront {
   bool has_question_ = false;
   std::uint32_t window_ = 0;  // where the next part of an amortised frame, or of tend(), begins
 
+  std::uint32_t split_count_ = 0;
+
   // Per slot.
   std::vector<float> keys_;
   std::vector<Slot> slots_;
