@@ -72,7 +72,7 @@ FrontStatistics ViewFront::adapt(ActiveSurface& surface, const RefineCriteria& c
     frame.end = std::chrono::steady_clock::now() +
                 std::chrono::nanoseconds(static_cast<std::int64_t>(limits.max_microseconds * 1e3f));
   if (begin_frame(criteria, options.tolerance) || limits.schedule != FrontSchedule::kDue) {
-    find_due(limits);
+    find_due(frame);
     settle(frame);
   }
   frame.statistics.vertices = surface.vertex_count();
@@ -106,32 +106,37 @@ bool ViewFront::begin_frame(const RefineCriteria& criteria, float tolerance) {
   return moved;
 }
 
-// What a frame begins with.
-void ViewFront::find_due(const FrontLimits& limits) {
-  if (limits.schedule == FrontSchedule::kDue) {
-    const auto due = find_due_keys(keys_, odometers_, room_);
-    make_room(due.size());
-    for (const std::uint32_t slot : due) sort(slot);
+// What a frame begins with. Slots that asking adds are not due.
+void ViewFront::find_due(Frame& frame) {
+  const std::uint32_t slots = slot_count();
+  if (frame.limits.schedule == FrontSchedule::kDue) {
+    for (std::uint32_t begin = 0; begin < slots; begin += kWindow) {
+      const std::span<const float> keys(&keys_[begin],
+                                        std::min<std::size_t>(kWindow, slots - begin));
+      for (const std::uint32_t i : find_due_keys(keys, odometers_, room_)) sort(begin + i);
+      ask_if_full(frame);
+    }
   } else {
-    const float part = limits.schedule == FrontSchedule::kAll
+    const float part = frame.limits.schedule == FrontSchedule::kAll
                            ? 1.0f
-                           : std::clamp(limits.amortized_part, 0.0f, 1.0f);
-    const auto count =
-        static_cast<std::uint32_t>(std::ceil(part * static_cast<float>(slot_count())));
-    make_room(slot_count());
-    for (std::uint32_t i = 0; i < std::min(count, slot_count()); ++i) {
-      if (window_ >= slot_count()) window_ = 0;
+                           : std::clamp(frame.limits.amortized_part, 0.0f, 1.0f);
+    const auto count = static_cast<std::uint32_t>(std::ceil(part * static_cast<float>(slots)));
+    for (std::uint32_t i = 0; i < std::min(count, slots); ++i) {
+      if (window_ >= slots) window_ = 0;
       sort(window_++);
+      ask_if_full(frame);
     }
   }
-  take_due();
+  take_due(frame);
 }
 
-// The steps that have become due.
-void ViewFront::take_due() {
-  make_room(due_.size());
-  for (const std::uint32_t step : due_)
-    if (slot_of_[step] != kNone) sort(slot_of_[step]);
+// The steps that have become due, and those that do while these are asked.
+void ViewFront::take_due(Frame& frame) {
+  for (std::size_t i = 0; i < due_.size(); ++i) {
+    if (slot_of_[due_[i]] == kNone) continue;
+    sort(slot_of_[due_[i]]);
+    ask_if_full(frame);
+  }
   due_.clear();
 }
 
@@ -139,13 +144,12 @@ void ViewFront::take_due() {
 // by keys; then come the collapses, and when nothing is due any more the splits, which make other
 // steps due. Slots keep their places until the collapses.
 void ViewFront::settle(Frame& frame) {
-  while (!nested_.empty() || !own_.empty() || !leaving_.empty() || !asked_.empty()) {
-    while (!nested_.empty() || !own_.empty() || !leaving_.empty()) {
-      ask_nested(frame);
-      ask_own(frame);
+  while (has_questions() || !leaving_.empty() || !asked_.empty()) {
+    while (has_questions() || !leaving_.empty()) {
+      ask(frame);
       for (const std::uint32_t step : leaving_) collapse(step, frame);
       leaving_.clear();
-      take_due();
+      take_due(frame);
     }
     // All that are asked are known by now: of those split along with them the others are forced.
     for (const std::uint32_t step : asked_) slots_[slot_of_[step]].flags |= kAsked;
@@ -154,9 +158,19 @@ void ViewFront::settle(Frame& frame) {
     for (const std::uint32_t step : asked_)
       slots_[slot_of_[step]].flags &= static_cast<std::uint8_t>(~kAsked);
     asked_.clear();
-    take_due();
+    take_due(frame);
   }
   tend();
+}
+
+void ViewFront::ask(Frame& frame) {
+  ask_nested(frame);  // some of these ask for themselves then
+  ask_own(frame);
+}
+
+// So that there is always room for a window more.
+void ViewFront::ask_if_full(Frame& frame) {
+  if (nested_.count + own_.count > kWindow) ask(frame);
 }
 
 // A slot that is due goes to nested_ if its subtree is in question, to own_ if it is itself, to
@@ -175,11 +189,6 @@ void ViewFront::sort(std::uint32_t slot) {
   model_->prefetch_bounds(at.step);
   nested_.add_if(!is_expanded, slot, at.step);
   own_.add_if(is_expanded & !is_held, slot, at.step);
-}
-
-void ViewFront::make_room(std::size_t more) {
-  nested_.make_room(more);
-  own_.make_room(nested_.count + more);  // those of nested_ may follow
 }
 
 // Is any step of the subtree asked? If so its children are watched from now on.
@@ -388,7 +397,7 @@ void ViewFront::set_level(std::uint32_t level) {
 
 std::size_t ViewFront::bytes() const {
   return (keys_.capacity() + keep_.capacity()) * sizeof(float) + slots_.capacity() * sizeof(Slot) +
-         answers_.bytes() + nested_.bytes() + own_.bytes() +
+         answers_.bytes() +
          (slot_of_.capacity() + room_.capacity() + due_.capacity() + leaving_.capacity() +
           asked_.capacity() + required_.capacity() + waiting_.capacity()) *
              sizeof(std::uint32_t);

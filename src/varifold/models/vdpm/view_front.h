@@ -15,6 +15,7 @@
 #include <varifold/models/vdpm/geomorph.h>
 #include <varifold/models/vdpm/odometers.h>
 #include <varifold/models/vdpm/view_dependent_mesh.h>
+#include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -87,37 +88,31 @@ class ViewFront {
     std::uint16_t dependents;  // split steps that require the step
     std::uint8_t flags;
   };
+  // So many slots are looked at before any is asked; few enough to stay in the nearest cache.
+  static constexpr std::size_t kWindow = 512;
   // Slots to ask about, and their steps.
   struct SlotList {
-    std::vector<std::uint32_t> slots, steps;
+    std::array<std::uint32_t, 2 * kWindow + 1> slots, steps;  // with room for one in vain
     std::size_t count = 0;
 
-    // Counts the slot only if it `counts`, without a branch. There must be room.
+    // Counts the slot only if it `counts`, without a branch.
     void add_if(bool counts, std::uint32_t slot, std::uint32_t step) {
       slots[count] = slot;
       steps[count] = step;
       count += counts ? 1 : 0;
     }
-    // For so many more slots and one that does not count.
-    void make_room(std::size_t more) {
-      if (slots.size() > count + more) return;
-      slots.resize(2 * (count + more) + 1);
-      steps.resize(slots.size());
-    }
-    [[nodiscard]] bool empty() const { return count == 0; }
     [[nodiscard]] std::span<const std::uint32_t> all_steps() const { return {steps.data(), count}; }
-    [[nodiscard]] std::size_t bytes() const {
-      return (slots.capacity() + steps.capacity()) * sizeof(std::uint32_t);
-    }
   };
   struct Frame;
 
   [[nodiscard]] bool begin_frame(const RefineCriteria& criteria, float tolerance);
-  void find_due(const FrontLimits& limits);
+  void find_due(Frame& frame);
   void settle(Frame& frame);
-  void take_due();
+  void take_due(Frame& frame);
   void sort(std::uint32_t slot);
-  void make_room(std::size_t more);
+  [[nodiscard]] bool has_questions() const { return nested_.count + own_.count > 0; }
+  void ask(Frame& frame);
+  void ask_if_full(Frame& frame);
   void ask_nested(Frame& frame);
   void ask_own(Frame& frame);
   [[nodiscard]] bool close(std::uint32_t slot);
