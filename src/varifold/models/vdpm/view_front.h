@@ -129,6 +129,8 @@ class ViewFront {
   void keep_key(std::uint32_t slot, const ViewAnswer& answer) {
     keys_[slot] = odometers_.key(answer.mover, answer.slack);
   }
+  // It will not fall due.
+  void forget_key(std::uint32_t slot) { keys_[slot] = odometers_.key(Mover::kNothing, 0); }
   void tend();
 
   const ViewDependentMesh* model_;
