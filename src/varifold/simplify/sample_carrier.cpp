@@ -128,11 +128,12 @@ std::vector<SurfaceSample> surface_samples(const DetailedMesh& detailed,
 }
 
 SampleCarrier::SampleCarrier(const DetailedMesh& detailed, const VerticesByPlace& places,
-                             const std::vector<SurfaceSample>& samples)
+                             const std::vector<SurfaceSample>& samples,
+                             const SequenceHistory* history)
     : detailed_(detailed),
       places_(places),
       positions_(detailed.mesh.positions),
-      replay_(detailed),
+      walk_(detailed, history),
       samples_(detailed.mesh.triangle_count()) {
   std::uint32_t number = 0;
   for (const SurfaceSample& sample : samples)
@@ -146,15 +147,23 @@ std::span<const std::uint32_t> SampleCarrier::placed_by(std::uint32_t step) cons
   return {sequence.placed_vertex.data() + begin, sequence.first_placed[step + 1] - begin};
 }
 
-// Detach the samples of all triangles at the vertices that move (and, with placement, at those
-// that are moved).
+// Triangles and their samples lie all over memory; what a later collapse needs is fetched early.
+void SampleCarrier::prefetch() const {
+  walk_.for_each_later(16, [&](std::uint32_t slot) {
+    __builtin_prefetch(&walk_.corners()[slot]);
+    samples_.prefetch_owner(slot / 3);
+  });
+  walk_.for_each_later(8, [&](std::uint32_t slot) { samples_.prefetch(slot / 3); });
+}
+
+// The slots at the vertices that go and, with placement, at those that are moved.
 void SampleCarrier::gather_before() {
-  const CollapseSequence& sequence = detailed_.sequence;
-  const std::uint32_t level = replay_.level();
   slots_.clear();
-  for (std::uint32_t v = sequence.vertices[level - 1]; v < sequence.vertices[level]; ++v)
-    replay_.slots_of(v, slots_);
-  for (const std::uint32_t v : placed_by(level - 1)) replay_.slots_of(v, slots_);
+  walk_.removed_slots(slots_);
+  for (const std::uint32_t v : placed_by(walk_.level() - 1)) walk_.slots_of(v, slots_);
+}
+
+void SampleCarrier::detach() {
   moving_.clear();
   for (const std::uint32_t slot : slots_) {
     const std::span<const Sample> samples = samples_.of(slot / 3);
@@ -166,34 +175,37 @@ void SampleCarrier::gather_before() {
 void SampleCarrier::move_placed() {
   const CollapseSequence& sequence = detailed_.sequence;
   if (!sequence.moves_vertices()) return;
-  const std::uint32_t level = replay_.level();
+  const std::uint32_t level = walk_.level();
   for (std::uint32_t j = sequence.first_placed[level]; j < sequence.first_placed[level + 1]; ++j)
     positions_[sequence.placed_vertex[j]] = sequence.placed.positions[j];
 }
 
+// What is left of the star.
+void SampleCarrier::gather_left() {
+  const auto placed = placed_by(walk_.level());
+  is_ear_ = walk_.changed().empty() && placed.empty();
+  slots_.assign(walk_.changed().begin(), walk_.changed().end());
+  for (const std::uint32_t v : placed) walk_.slots_of(v, slots_);
+}
+
 // The triangles that the samples may go to: those of the star that are left.
-void SampleCarrier::gather_after() {
+void SampleCarrier::gather_candidates() {
   const CollapseSequence& sequence = detailed_.sequence;
-  const std::uint32_t level = replay_.level();
-  const auto placed = placed_by(level);
-  is_ear_ = replay_.changed().empty() && placed.empty();
+  const std::uint32_t level = walk_.level();
   candidates_.clear();
   doubled_areas_.clear();
   if (moving_.empty()) return;
-  slots_.assign(replay_.changed().begin(), replay_.changed().end());
-  for (const std::uint32_t v : placed) replay_.slots_of(v, slots_);
   if (slots_.empty())
     for (std::uint32_t v = sequence.vertices[level]; v < sequence.vertices[level + 1]; ++v)
-      places_.for_each_at(sequence.target[v],
-                          [&](std::uint32_t w) { replay_.slots_of(w, slots_); });
+      places_.for_each_at(sequence.target[v], [&](std::uint32_t w) { walk_.slots_of(w, slots_); });
   if (slots_.empty()) slots_.push_back(0);  // never: a collapse leaves faces behind
-  if (!placed.empty()) {
+  if (!placed_by(level).empty()) {
     for (std::uint32_t& slot : slots_) slot -= slot % 3;
     std::sort(slots_.begin(), slots_.end());
     slots_.erase(std::unique(slots_.begin(), slots_.end()), slots_.end());
   }
   for (const std::uint32_t slot : slots_) {
-    const std::uint32_t* corner = &replay_.corners()[3 * std::size_t{slot / 3}];
+    const std::uint32_t* corner = &walk_.corners()[3 * std::size_t{slot / 3}];
     const Vec3 a = positions_[corner[0]], b = positions_[corner[1]], c = positions_[corner[2]];
     candidates_.push_back({slot / 3, {a, b, c}});
     doubled_areas_.push_back(glm::length(glm::cross(b - a, c - a)));
@@ -215,7 +227,8 @@ bool carry_samples(const DetailedMesh& detailed, const CarryOptions& options,
     const auto share = static_cast<std::uint32_t>(begin);
     SampleCarrier carrier(
         detailed, places,
-        surface_samples(detailed, {options.inside_triangles, options.on_edges, share, shares}));
+        surface_samples(detailed, {options.inside_triangles, options.on_edges, share, shares}),
+        options.history);
     while (carrier.level() > 0 && !cancelled) {
       collapse(share, carrier);
       if (share == 0 && carrier.level() % kReportEvery == 0 &&
