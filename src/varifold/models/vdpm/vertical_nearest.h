@@ -18,7 +18,46 @@ class VerticalNearest {
   }
 
   void reset(const std::vector<StarTriangle>& triangles) { triangles_ = &triangles; }
+  /// Mostly one of the triangles is above or below, and the others need no nearest point.
   std::size_t find(const Vec3& p, Vec3& way) const {
+    for (std::size_t i = 0; i < triangles_->size(); ++i) {
+      const std::array<Vec3, 3>& corners = (*triangles_)[i].corners;
+      const Vec3 a = corners[0] - p, b = corners[1] - p, c = corners[2] - p;
+      if (is_far(a, b, c)) continue;
+      const NearestPoint nearest = on_triangle(a, b, c);
+      if (nearest.order != 0) continue;
+      way = nearest.point;
+      return i;
+    }
+    return find_among_all(p, way);
+  }
+
+ private:
+  // Squared: nearer to an edge than this, the origin is taken to lie on it.
+  static constexpr float kRounding = 1e-10f;
+
+  // Whether the origin surely is neither in the triangle nor taken to lie on its edges: it is
+  // beyond the line of an edge, and that by far more than roundings. Where these are greater than
+  // that, the triangle is too small and too far away to hold the origin.
+  [[nodiscard]] bool is_far(const Vec3& a, const Vec3& b, const Vec3& c) const {
+    const float x[3] = {glm::dot(a, x_), glm::dot(b, x_), glm::dot(c, x_)};
+    const float y[3] = {glm::dot(a, y_), glm::dot(b, y_), glm::dot(c, y_)};
+    float longest = 0, squared[3], side[3];  // as in on_triangle()
+    for (int i = 0; i < 3; ++i) {
+      const int next = i == 2 ? 0 : i + 1;
+      const float along_x = x[next] - x[i], along_y = y[next] - y[i];
+      side[i] = x[i] * along_y - y[i] * along_x;
+      squared[i] = along_x * along_x + along_y * along_y;
+      longest = std::max(longest, squared[i]);
+    }
+    const float sign = side[0] + side[1] + side[2] > 0 ? 1.0f : -1.0f;
+    bool is_far = false;
+    for (int i = 0; i < 3; ++i)
+      is_far |= sign * side[i] < 0 && side[i] * side[i] > 4 * kRounding * longest * squared[i];
+    return is_far;
+  }
+
+  std::size_t find_among_all(const Vec3& p, Vec3& way) const {
     std::size_t best = 0;
     NearestPoint nearest{Vec3(0), std::numeric_limits<float>::infinity()};
     for (std::size_t i = 0; i < triangles_->size(); ++i) {
@@ -32,10 +71,6 @@ class VerticalNearest {
     way = nearest.point;
     return best;
   }
-
- private:
-  // Squared: nearer to an edge than this, the origin is taken to lie on it.
-  static constexpr float kRounding = 1e-10f;
 
   [[nodiscard]] NearestPoint on_triangle(const Vec3& a, const Vec3& b, const Vec3& c) const {
     const Vec3 p[3] = {in_plan(a), in_plan(b), in_plan(c)};
