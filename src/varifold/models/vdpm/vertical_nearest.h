@@ -22,9 +22,8 @@ class VerticalNearest {
   std::size_t find(const Vec3& p, Vec3& way) const {
     for (std::size_t i = 0; i < triangles_->size(); ++i) {
       const std::array<Vec3, 3>& corners = (*triangles_)[i].corners;
-      const Vec3 a = corners[0] - p, b = corners[1] - p, c = corners[2] - p;
-      if (is_far(a, b, c)) continue;
-      const NearestPoint nearest = on_triangle(a, b, c);
+      const NearestPoint nearest =
+          on_triangle<true>(corners[0] - p, corners[1] - p, corners[2] - p);
       if (nearest.order != 0) continue;
       way = nearest.point;
       return i;
@@ -36,33 +35,12 @@ class VerticalNearest {
   // Squared: nearer to an edge than this, the origin is taken to lie on it.
   static constexpr float kRounding = 1e-10f;
 
-  // Whether the origin surely is neither in the triangle nor taken to lie on its edges: it is
-  // beyond the line of an edge, and that by far more than roundings. Where these are greater than
-  // that, the triangle is too small and too far away to hold the origin.
-  [[nodiscard]] bool is_far(const Vec3& a, const Vec3& b, const Vec3& c) const {
-    const float x[3] = {glm::dot(a, x_), glm::dot(b, x_), glm::dot(c, x_)};
-    const float y[3] = {glm::dot(a, y_), glm::dot(b, y_), glm::dot(c, y_)};
-    float longest = 0, squared[3], side[3];  // as in on_triangle()
-    for (int i = 0; i < 3; ++i) {
-      const int next = i == 2 ? 0 : i + 1;
-      const float along_x = x[next] - x[i], along_y = y[next] - y[i];
-      side[i] = x[i] * along_y - y[i] * along_x;
-      squared[i] = along_x * along_x + along_y * along_y;
-      longest = std::max(longest, squared[i]);
-    }
-    const float sign = side[0] + side[1] + side[2] > 0 ? 1.0f : -1.0f;
-    bool is_far = false;
-    for (int i = 0; i < 3; ++i)
-      is_far |= sign * side[i] < 0 && side[i] * side[i] > 4 * kRounding * longest * squared[i];
-    return is_far;
-  }
-
   std::size_t find_among_all(const Vec3& p, Vec3& way) const {
     std::size_t best = 0;
     NearestPoint nearest{Vec3(0), std::numeric_limits<float>::infinity()};
     for (std::size_t i = 0; i < triangles_->size(); ++i) {
       const std::array<Vec3, 3>& corners = (*triangles_)[i].corners;
-      const NearestPoint other = on_triangle(corners[0] - p, corners[1] - p, corners[2] - p);
+      const NearestPoint other = on_triangle<false>(corners[0] - p, corners[1] - p, corners[2] - p);
       if (!(other.order < nearest.order)) continue;
       nearest = other;
       best = i;
@@ -72,29 +50,44 @@ class VerticalNearest {
     return best;
   }
 
+  static constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+  // With `only_above`, anything that is not of order 0 may be infinitely far.
+  template <bool only_above>
   [[nodiscard]] NearestPoint on_triangle(const Vec3& a, const Vec3& b, const Vec3& c) const {
     const Vec3 p[3] = {in_plan(a), in_plan(b), in_plan(c)};
-    NearestPoint best{Vec3(0), std::numeric_limits<float>::infinity()};
-    float longest = 0;  // squared
-    float side[3];      // twice the areas between the origin and the edges
+    float longest = 0, squared[3];  // lengths of edges
+    float side[3];                  // twice the areas between the origin and the edges
+    Vec3 along[3];
     for (int i = 0; i < 3; ++i) {
-      const Vec3& from = p[i];
-      const Vec3 along = p[(i + 1) % 3] - from;
-      side[i] = from.x * along.y - from.y * along.x;
-      const float squared = along.x * along.x + along.y * along.y;
-      longest = std::max(longest, squared);
-      const float part =
-          squared > 0 ? std::clamp(-(from.x * along.x + from.y * along.y) / squared, 0.0f, 1.0f)
-                      : 0.0f;
-      const Vec3 at = from + part * along;
-      const float order = at.x * at.x + at.y * at.y;
-      if (order < best.order) best = {at, order};
+      along[i] = p[i == 2 ? 0 : i + 1] - p[i];
+      side[i] = p[i].x * along[i].y - p[i].y * along[i].x;
+      squared[i] = along[i].x * along[i].x + along[i].y * along[i].y;
+      longest = std::max(longest, squared[i]);
     }
     const float area = side[0] + side[1] + side[2];
     const bool is_inside = area > 0 ? std::min({side[0], side[1], side[2]}) >= 0
                                     : area < 0 && std::max({side[0], side[1], side[2]}) <= 0;
     if (is_inside)
       return {(side[1] * p[0].z + side[2] * p[1].z + side[0] * p[2].z) / area * axis_, 0};
+    if constexpr (only_above) {
+      // Beyond the line of an edge by far more than roundings, the origin is not taken to lie on
+      // it. Where they are greater than that, the triangle is too small and far away to hold it.
+      const float sign = area > 0 ? 1.0f : -1.0f;
+      for (int i = 0; i < 3; ++i)
+        if (sign * side[i] < 0 && side[i] * side[i] > 4 * kRounding * longest * squared[i])
+          return {Vec3(0), kInfinity};
+    }
+    NearestPoint best{Vec3(0), kInfinity};
+    for (int i = 0; i < 3; ++i) {
+      const float part =
+          squared[i] > 0
+              ? std::clamp(-(p[i].x * along[i].x + p[i].y * along[i].y) / squared[i], 0.0f, 1.0f)
+              : 0.0f;
+      const Vec3 at = p[i] + part * along[i];
+      const float order = at.x * at.x + at.y * at.y;
+      if (order < best.order) best = {at, order};
+    }
     if (best.order <= kRounding * longest) return {best.point.z * axis_, 0};
     return {best.point.x * x_ + best.point.y * y_ + best.point.z * axis_, best.order};
   }
