@@ -76,9 +76,9 @@ class SampleCarrier {
     std::uint32_t number;
   };
 
+  /// With the samples of surface_samples(), numbered in that order.
   SampleCarrier(const DetailedMesh& detailed, const VerticesByPlace& places,
-                const std::vector<SurfaceSample>& samples,
-                const SequenceHistory* history = nullptr);
+                const SampleOptions& options, const SequenceHistory* history = nullptr);
 
   [[nodiscard]] std::uint32_t level() const { return walk_.level(); }
 
