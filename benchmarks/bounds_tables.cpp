@@ -82,7 +82,7 @@ using Spaces = std::vector<std::array<DeviationSpace, kKinds>>;
 Spaces spaces_of(const Case& c) {
   Spaces spaces(c.bounds.size());
   const VerticesByPlace places(c.detailed.mesh);
-  SampleCarrier carrier(c.detailed, places, surface_samples(c.detailed, {.on_edges = 3}));
+  SampleCarrier carrier(c.detailed, places, {.on_edges = 3});
   NearestTriangle nearest;
   std::vector<Vec2> residuals;  // along the axis and across it
   while (carrier.level() > 0) {

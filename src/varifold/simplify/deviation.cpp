@@ -3,6 +3,7 @@
 #include <varifold/simplify/sample_carrier.h>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace varifold {
 
@@ -25,7 +26,12 @@ std::vector<float> step_deviations(const DetailedMesh& detailed, const Deviation
     });
     squared[share][carrier.level()] = greatest;
   };
-  if (!carry_samples(detailed, {.threads = options.threads, .progress = options.progress},
+  std::optional<SequenceHistory> history;
+  if (!detailed.sequence.moves_vertices()) history.emplace(detailed);
+  if (!carry_samples(detailed,
+                     {.threads = options.threads,
+                      .progress = options.progress,
+                      .history = history ? &*history : nullptr},
                      collapse))
     return {};
 

@@ -30,6 +30,12 @@ class SamplesOfOwners {
     return {pool_.at(owners_[owner].offset), owners_[owner].size};
   }
 
+  /// What of() and clear() will read: first where the samples of an owner are, later these.
+  void prefetch_owner(std::uint32_t owner) const { __builtin_prefetch(&owners_[owner]); }
+  void prefetch(std::uint32_t owner) const {
+    if (owners_[owner].size > 0) __builtin_prefetch(pool_.at(owners_[owner].offset));
+  }
+
   /// Amortised O(1); spans of of() do not outlive it.
   void add(std::uint32_t owner, const Sample& sample) {
     Owner& block = owners_[owner];

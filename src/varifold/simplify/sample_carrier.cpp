@@ -29,23 +29,29 @@ namespace {
 
 // Some samples with one place along the Morton curve.
 struct SampleGroup {
-  Vec3 place;
   std::uint32_t triangle;
   std::uint32_t from, to;  // kNone; or the ends of the edge that it is on
 };
 
-void add_vertices(const TriangleMesh& mesh, const SampleOptions& options,
-                  std::vector<SampleGroup>& groups) {
+struct SampleGroups {
+  std::vector<SampleGroup> groups;
+  std::vector<Vec3> places;  // of each
+
+  void add(const Vec3& place, const SampleGroup& group) {
+    groups.push_back(group);
+    places.push_back(place);
+  }
+};
+
+void add_vertices(const TriangleMesh& mesh, const SampleOptions& options, SampleGroups& groups) {
   std::vector<std::uint32_t> triangle_of(mesh.vertex_count(), kNone);
   for (std::size_t slot = 0; slot < mesh.indices.size(); ++slot)
     triangle_of[mesh.indices[slot]] = static_cast<std::uint32_t>(slot / 3);
   for (std::uint32_t v = options.share; v < mesh.vertex_count(); v += options.shares)
-    if (triangle_of[v] != kNone)
-      groups.push_back({mesh.positions[v], triangle_of[v], kNone, kNone});
+    if (triangle_of[v] != kNone) groups.add(mesh.positions[v], {triangle_of[v], kNone, kNone});
 }
 
-void add_insides(const TriangleMesh& mesh, const SampleOptions& options,
-                 std::vector<SampleGroup>& groups) {
+void add_insides(const TriangleMesh& mesh, const SampleOptions& options, SampleGroups& groups) {
   // Uniform in the triangle: a point of the square, folded along its diagonal.
   for (std::size_t i = options.share;
        i < std::size_t{mesh.triangle_count()} * options.inside_triangles; i += options.shares) {
@@ -55,14 +61,13 @@ void add_insides(const TriangleMesh& mesh, const SampleOptions& options,
     if (u + v > 1) u = 1 - u, v = 1 - v;
     const std::uint32_t* corner = &mesh.indices[3 * std::size_t{triangle}];
     const Vec3 a = mesh.positions[corner[0]];
-    groups.push_back({a + u * (mesh.positions[corner[1]] - a) + v * (mesh.positions[corner[2]] - a),
-                      triangle, kNone, kNone});
+    groups.add(a + u * (mesh.positions[corner[1]] - a) + v * (mesh.positions[corner[2]] - a),
+               {triangle, kNone, kNone});
   }
 }
 
 // Every edge once, where no seam doubles it.
-void add_edges(const TriangleMesh& mesh, const SampleOptions& options,
-               std::vector<SampleGroup>& groups) {
+void add_edges(const TriangleMesh& mesh, const SampleOptions& options, SampleGroups& groups) {
   // Slots by the lesser end of the edge to the triangle's next corner.
   const auto next = [](std::uint32_t slot) { return slot % 3 == 2 ? slot - 2 : slot + 1; };
   const auto slots = static_cast<std::uint32_t>(mesh.indices.size());
@@ -84,23 +89,39 @@ void add_edges(const TriangleMesh& mesh, const SampleOptions& options,
       if (std::find(taken.begin(), taken.end(), w) != taken.end()) continue;
       taken.push_back(w);
       if (number++ % options.shares == options.share)
-        groups.push_back({0.5f * (mesh.positions[v] + mesh.positions[w]), by_end[i] / 3, v, w});
+        groups.add(0.5f * (mesh.positions[v] + mesh.positions[w]), {by_end[i] / 3, v, w});
     }
   }
 }
 
-void add_samples(const TriangleMesh& mesh, const SampleGroup& group, std::uint32_t on_edges,
-                 std::vector<SurfaceSample>& samples) {
-  if (group.from == kNone) {
-    samples.push_back({group.place, group.triangle});
-    return;
-  }
-  const Vec3 a = mesh.positions[group.from], way = mesh.positions[group.to] - a;
-  const float released_at = kReleaseAt * glm::dot(way, way);
-  for (std::uint32_t i = 1; i <= on_edges; ++i) {
-    const float part = static_cast<float>(i) / static_cast<float>(on_edges + 1);
-    samples.push_back(
-        {a + part * way, group.triangle, 2 * i == on_edges + 1 ? 2 * released_at : released_at});
+// f(sample) for all samples in their order.
+template <class F>
+void for_each_sample(const DetailedMesh& detailed, const SampleOptions& options, const F& f) {
+  const TriangleMesh& mesh = detailed.mesh;
+  SampleGroups all;
+  add_vertices(mesh, options, all);
+  if (options.inside_triangles > 0) add_insides(mesh, options, all);
+  if (options.on_edges > 0) add_edges(mesh, options, all);
+
+  // Along a Morton curve, so that the samples of a triangle share cache lines.
+  std::vector<std::uint32_t> order(all.groups.size());
+  std::iota(order.begin(), order.end(), 0u);
+  order = morton_order(all.places, order, bounds(mesh));
+  constexpr std::size_t kAhead = 16;
+  for (std::size_t place = 0; place < order.size(); ++place) {
+    if (place + kAhead < order.size()) __builtin_prefetch(&all.groups[order[place + kAhead]]);
+    const SampleGroup& group = all.groups[order[place]];
+    if (group.from == kNone) {
+      f(SurfaceSample{all.places[order[place]], group.triangle});
+      continue;
+    }
+    const Vec3 a = mesh.positions[group.from], way = mesh.positions[group.to] - a;
+    const float released_at = kReleaseAt * glm::dot(way, way);
+    for (std::uint32_t i = 1; i <= options.on_edges; ++i) {
+      const float part = static_cast<float>(i) / static_cast<float>(options.on_edges + 1);
+      f(SurfaceSample{a + part * way, group.triangle,
+                      2 * i == options.on_edges + 1 ? 2 * released_at : released_at});
+    }
   }
 }
 
@@ -108,35 +129,22 @@ void add_samples(const TriangleMesh& mesh, const SampleGroup& group, std::uint32
 
 std::vector<SurfaceSample> surface_samples(const DetailedMesh& detailed,
                                            const SampleOptions& options) {
-  const TriangleMesh& mesh = detailed.mesh;
-  std::vector<SampleGroup> groups;
-  add_vertices(mesh, options, groups);
-  if (options.inside_triangles > 0) add_insides(mesh, options, groups);
-  const std::size_t points = groups.size();
-  if (options.on_edges > 0) add_edges(mesh, options, groups);
-
-  // Along a Morton curve, so that the samples of a triangle share cache lines.
-  std::vector<Vec3> places(groups.size());
-  std::vector<std::uint32_t> all(groups.size());
-  std::iota(all.begin(), all.end(), 0u);
-  for (std::size_t i = 0; i < groups.size(); ++i) places[i] = groups[i].place;
   std::vector<SurfaceSample> samples;
-  samples.reserve(points + (groups.size() - points) * options.on_edges);
-  for (const std::uint32_t i : morton_order(places, all, bounds(mesh)))
-    add_samples(mesh, groups[i], options.on_edges, samples);
+  for_each_sample(detailed, options, [&](const SurfaceSample& s) { samples.push_back(s); });
   return samples;
 }
 
 SampleCarrier::SampleCarrier(const DetailedMesh& detailed, const VerticesByPlace& places,
-                             const std::vector<SurfaceSample>& samples)
+                             const SampleOptions& options, const SequenceHistory* history)
     : detailed_(detailed),
       places_(places),
       positions_(detailed.mesh.positions),
-      replay_(detailed),
+      walk_(detailed, history),
       samples_(detailed.mesh.triangle_count()) {
   std::uint32_t number = 0;
-  for (const SurfaceSample& sample : samples)
+  for_each_sample(detailed, options, [&](const SurfaceSample& sample) {
     samples_.add(sample.triangle, {sample.position, sample.released_at, number++});
+  });
 }
 
 std::span<const std::uint32_t> SampleCarrier::placed_by(std::uint32_t step) const {
@@ -146,15 +154,23 @@ std::span<const std::uint32_t> SampleCarrier::placed_by(std::uint32_t step) cons
   return {sequence.placed_vertex.data() + begin, sequence.first_placed[step + 1] - begin};
 }
 
-// Detach the samples of all triangles at the vertices that move (and, with placement, at those
-// that are moved).
+// Triangles and their samples lie all over memory; what a later collapse needs is fetched early.
+void SampleCarrier::prefetch() const {
+  walk_.for_each_later(16, [&](std::uint32_t slot) {
+    __builtin_prefetch(&walk_.corners()[slot]);
+    samples_.prefetch_owner(slot / 3);
+  });
+  walk_.for_each_later(8, [&](std::uint32_t slot) { samples_.prefetch(slot / 3); });
+}
+
+// The slots at the vertices that go and, with placement, at those that are moved.
 void SampleCarrier::gather_before() {
-  const CollapseSequence& sequence = detailed_.sequence;
-  const std::uint32_t level = replay_.level();
   slots_.clear();
-  for (std::uint32_t v = sequence.vertices[level - 1]; v < sequence.vertices[level]; ++v)
-    replay_.slots_of(v, slots_);
-  for (const std::uint32_t v : placed_by(level - 1)) replay_.slots_of(v, slots_);
+  walk_.removed_slots(slots_);
+  for (const std::uint32_t v : placed_by(walk_.level() - 1)) walk_.slots_of(v, slots_);
+}
+
+void SampleCarrier::detach() {
   moving_.clear();
   for (const std::uint32_t slot : slots_) {
     const std::span<const Sample> samples = samples_.of(slot / 3);
@@ -166,34 +182,37 @@ void SampleCarrier::gather_before() {
 void SampleCarrier::move_placed() {
   const CollapseSequence& sequence = detailed_.sequence;
   if (!sequence.moves_vertices()) return;
-  const std::uint32_t level = replay_.level();
+  const std::uint32_t level = walk_.level();
   for (std::uint32_t j = sequence.first_placed[level]; j < sequence.first_placed[level + 1]; ++j)
     positions_[sequence.placed_vertex[j]] = sequence.placed.positions[j];
 }
 
+// What is left of the star.
+void SampleCarrier::gather_left() {
+  const auto placed = placed_by(walk_.level());
+  is_ear_ = walk_.changed().empty() && placed.empty();
+  slots_.assign(walk_.changed().begin(), walk_.changed().end());
+  for (const std::uint32_t v : placed) walk_.slots_of(v, slots_);
+}
+
 // The triangles that the samples may go to: those of the star that are left.
-void SampleCarrier::gather_after() {
+void SampleCarrier::gather_candidates() {
   const CollapseSequence& sequence = detailed_.sequence;
-  const std::uint32_t level = replay_.level();
-  const auto placed = placed_by(level);
-  is_ear_ = replay_.changed().empty() && placed.empty();
+  const std::uint32_t level = walk_.level();
   candidates_.clear();
   doubled_areas_.clear();
   if (moving_.empty()) return;
-  slots_.assign(replay_.changed().begin(), replay_.changed().end());
-  for (const std::uint32_t v : placed) replay_.slots_of(v, slots_);
   if (slots_.empty())
     for (std::uint32_t v = sequence.vertices[level]; v < sequence.vertices[level + 1]; ++v)
-      places_.for_each_at(sequence.target[v],
-                          [&](std::uint32_t w) { replay_.slots_of(w, slots_); });
+      places_.for_each_at(sequence.target[v], [&](std::uint32_t w) { walk_.slots_of(w, slots_); });
   if (slots_.empty()) slots_.push_back(0);  // never: a collapse leaves faces behind
-  if (!placed.empty()) {
+  if (!placed_by(level).empty()) {
     for (std::uint32_t& slot : slots_) slot -= slot % 3;
     std::sort(slots_.begin(), slots_.end());
     slots_.erase(std::unique(slots_.begin(), slots_.end()), slots_.end());
   }
   for (const std::uint32_t slot : slots_) {
-    const std::uint32_t* corner = &replay_.corners()[3 * std::size_t{slot / 3}];
+    const std::uint32_t* corner = &walk_.corners()[3 * std::size_t{slot / 3}];
     const Vec3 a = positions_[corner[0]], b = positions_[corner[1]], c = positions_[corner[2]];
     candidates_.push_back({slot / 3, {a, b, c}});
     doubled_areas_.push_back(glm::length(glm::cross(b - a, c - a)));
@@ -213,9 +232,9 @@ bool carry_samples(const DetailedMesh& detailed, const CarryOptions& options,
   std::atomic<bool> cancelled{false};
   parallel_for(options.threads, shares, 1, [&](std::size_t begin, std::size_t) {
     const auto share = static_cast<std::uint32_t>(begin);
-    SampleCarrier carrier(
-        detailed, places,
-        surface_samples(detailed, {options.inside_triangles, options.on_edges, share, shares}));
+    SampleCarrier carrier(detailed, places,
+                          {options.inside_triangles, options.on_edges, share, shares},
+                          options.history);
     while (carrier.level() > 0 && !cancelled) {
       collapse(share, carrier);
       if (share == 0 && carrier.level() % kReportEvery == 0 &&

@@ -6,8 +6,8 @@
 #include <varifold/base/progress.h>
 #include <varifold/simplify/collapse_sequence.h>
 #include <varifold/simplify/sample_blocks.h>
-#include <varifold/simplify/sequence_replay.h>
 #include <varifold/simplify/star_triangles.h>
+#include <varifold/simplify/star_walk.h>
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -65,8 +65,9 @@ inline constexpr float kReleaseAt = 16;
                                                          const SampleOptions& options);
 
 /// Replays the collapses and moves the samples of the triangles that a collapse touches to the
-/// nearest of those that it leaves there. 32 bytes a triangle, 20 a vertex,
-/// 20 a sample and as much again for room to grow.
+/// nearest of those that it leaves there. 20 bytes a triangle, 12 a vertex,
+/// 20 a sample and as much again for room to grow; without a history 12 bytes more a triangle and 8
+/// a vertex.
 class SampleCarrier {
  public:
   struct Sample {
@@ -75,10 +76,11 @@ class SampleCarrier {
     std::uint32_t number;
   };
 
+  /// With the samples of surface_samples(), numbered in that order.
   SampleCarrier(const DetailedMesh& detailed, const VerticesByPlace& places,
-                const std::vector<SurfaceSample>& samples);
+                const SampleOptions& options, const SequenceHistory* history = nullptr);
 
-  [[nodiscard]] std::uint32_t level() const { return replay_.level(); }
+  [[nodiscard]] std::uint32_t level() const { return walk_.level(); }
 
   /// One collapse, to level() - 1. `nearest` finds the triangle that a sample goes to, as
   /// NearestTriangle does; visit(sample, residual) gets each Sample that the collapse moved, and
@@ -87,12 +89,22 @@ class SampleCarrier {
   ///
   /// A collapse that leaves none of the triangles around its point and moves none (is_ear()) hands
   /// its samples to the triangles at its target.
-  template <class Nearest, class Visit>
-  void collapse(Nearest& nearest, const Visit& visit) {
+  ///
+  /// stars(slots) gets the slots of the vertices that the collapse removes or moves, before it,
+  /// and after it those that it has changed and of the vertices that it has moved; position() and
+  /// corners() are those of the level. With vertices that move slots of a triangle may be in there
+  /// more than once.
+  template <class Nearest, class Visit, class Stars>
+  void collapse(Nearest& nearest, const Visit& visit, const Stars& stars) {
+    prefetch();
     gather_before();
-    replay_.collapse();
+    stars(std::span<const std::uint32_t>(slots_));
+    detach();
+    walk_.collapse();
     move_placed();
-    gather_after();
+    gather_left();
+    stars(std::span<const std::uint32_t>(slots_));
+    gather_candidates();
     if (moving_.empty()) return;
     nearest.reset(candidates_);
     const auto move_to = [&](const Sample& sample, std::size_t found, const Vec3& residual) {
@@ -111,7 +123,12 @@ class SampleCarrier {
     }
     samples_.tidy();
   }
+  template <class Nearest, class Visit>
+  void collapse(Nearest& nearest, const Visit& visit) {
+    collapse(nearest, visit, [](std::span<const std::uint32_t>) {});
+  }
   [[nodiscard]] bool is_ear() const { return is_ear_; }
+  [[nodiscard]] const std::vector<std::uint32_t>& corners() const { return walk_.corners(); }
   /// Of a vertex at the present level.
   [[nodiscard]] const Vec3& position(std::uint32_t vertex) const { return positions_[vertex]; }
 
@@ -132,14 +149,17 @@ class SampleCarrier {
     }
   }
   [[nodiscard]] std::span<const std::uint32_t> placed_by(std::uint32_t step) const;
+  void prefetch() const;
   void gather_before();
+  void detach();
   void move_placed();
-  void gather_after();
+  void gather_left();
+  void gather_candidates();
 
   const DetailedMesh& detailed_;
   const VerticesByPlace& places_;
   std::vector<Vec3> positions_;  // at the present level
-  SequenceReplay replay_;
+  StarWalk walk_;
   SamplesOfOwners<Sample, 4> samples_;  // of triangles
   std::vector<Sample> moving_;
   std::vector<std::uint32_t> slots_;
@@ -155,6 +175,7 @@ struct CarryOptions {
   int threads = 0;
   Progress progress;
   std::uint32_t inside_triangles = 0, on_edges = 0;  ///< see SampleOptions
+  const SequenceHistory* history = nullptr;          ///< of the sequence, where there is one
 };
 
 /// Carries all samples from the full level to the base, sample_shares() carriers at a time:

@@ -53,9 +53,9 @@ SequenceHistory::SequenceHistory(const DetailedMesh& detailed) {
   // come to a vertex one behind the other are one behind the other, and few lists are written at a
   // time.
   const CornerRows rows(detailed);
-  const std::vector<std::uint32_t> places = places_in_tree(sequence);
-  std::vector<std::uint32_t> order(places.size());
-  for (std::uint32_t v = 0; v < order.size(); ++v) order[places[v]] = v;
+  places_ = places_in_tree(sequence);
+  std::vector<std::uint32_t> order(places_.size());
+  for (std::uint32_t v = 0; v < order.size(); ++v) order[places_[v]] = v;
   for (const std::uint32_t vertex : order)
     for (const Corner& corner : rows.of(vertex)) {
       std::uint32_t v = vertex;

@@ -8,7 +8,7 @@
 
 namespace varifold {
 
-/// The changes of all steps at once: about 20 bytes a vertex for the changes and 12 a triangle.
+/// The changes of all steps at once: about 24 bytes a vertex for the changes and 12 a triangle.
 /// Slot 3 t + c is corner c of triangle t.
 class SequenceHistory {
  public:
@@ -30,6 +30,10 @@ class SequenceHistory {
   [[nodiscard]] std::span<const std::uint32_t> added(std::uint32_t level) const {
     return {added_.data() + added_begin_[level], added_begin_[level + 1] - added_begin_[level]};
   }
+  /// The place of a vertex in the tree of targets (target_tree.h); only where the changes were not
+  /// known. Slots that come to a vertex are in the order of the places of their vertices at full
+  /// detail, and those of one vertex ascending.
+  [[nodiscard]] std::uint32_t place_in_tree(std::uint32_t v) const { return places_[v]; }
   /// Per slot, its vertex when its triangle appears: for triangles of the base at level 0.
   [[nodiscard]] const std::vector<std::uint32_t>& first_corners() const { return corners_; }
 
@@ -37,7 +41,7 @@ class SequenceHistory {
   void find_added(const CollapseSequence& sequence);
 
   std::uint32_t first_vertex_ = 0;
-  std::vector<std::uint32_t> changed_, changed_begin_, added_, added_begin_, corners_;
+  std::vector<std::uint32_t> changed_, changed_begin_, added_, added_begin_, corners_, places_;
 };
 
 }  // namespace varifold

@@ -153,11 +153,12 @@ struct AreaOfNearest {
 SampleHistory history_of_samples(const DetailedMesh& detailed, const StepBoundsOptions& options) {
   SampleHistory history;
   const VerticesByPlace places(detailed.mesh);
-  const auto samples = surface_samples(
-      detailed, {.inside_triangles = options.inside_triangles, .on_edges = options.on_edges});
+  const SampleOptions chosen{.inside_triangles = options.inside_triangles,
+                             .on_edges = options.on_edges};
+  const auto samples = surface_samples(detailed, chosen);
   for (const SurfaceSample& sample : samples) history.positions.push_back(sample.position);
   history.moves.resize(samples.size());
-  SampleCarrier carrier(detailed, places, samples);
+  SampleCarrier carrier(detailed, places, chosen);
   AreaOfNearest<NearestTriangle> nearest;
   AreaOfNearest<VerticalNearest> vertical{
       VerticalNearest(unpack_cone(cone_code::code_of_axis(options.up)).axis)};

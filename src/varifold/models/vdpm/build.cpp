@@ -9,14 +9,14 @@ ViewDependentMesh build_view_dependent_mesh(const DetailedMesh& detailed,
                                             const StepBoundsOptions& options) {
   ViewDependentMeshData data;
   std::vector<std::uint32_t> parents;
+  std::vector<StepBounds> bounds;
+  const SequenceHistory history(detailed);
   {
-    const SequenceHistory history(detailed);
     const StepGraph graph(detailed, history, options.threads);
     parents = watch_parents(graph);
     data = assemble_steps(detailed, history, graph, parents);
   }
-  std::vector<StepBounds> bounds;
-  if (!measure_step_bounds(detailed, parents, options, bounds)) return {};
+  if (!measure_step_bounds(detailed, parents, options, bounds, &history)) return {};
   data.mesh = detailed.mesh;
   data.mesh.indices = {};
   data.levels = LevelTable(detailed.sequence);

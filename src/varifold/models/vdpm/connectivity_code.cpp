@@ -37,41 +37,46 @@ bool is_triangle(const SplitFrame& frame, const std::array<std::uint32_t, 3>& co
 }  // namespace
 
 GrowingSurface::GrowingSurface(std::uint32_t vertices, std::uint32_t triangles)
-    : corners_(std::size_t{3} * triangles, 0),
-      next_(std::size_t{3} * triangles, kNone),
-      first_(vertices, kNone),
-      last_(vertices, kNone),
-      count_(vertices, 0) {}
+    : slots_(std::size_t{3} * triangles), rows_(vertices) {}
 
 void GrowingSurface::append(std::uint32_t vertex, std::uint32_t slot) {
-  corners_[slot] = vertex;
-  next_[slot] = kNone;
-  if (first_[vertex] == kNone)
-    first_[vertex] = slot;
+  slots_[slot].next = kNone;
+  Row& row = rows_[vertex];
+  if (row.first == kNone)
+    row.first = slot;
   else
-    next_[last_[vertex]] = slot;
-  last_[vertex] = slot;
-  ++count_[vertex];
+    slots_[row.last].next = slot;
+  row.last = slot;
+  ++row.count;
+}
+
+std::vector<std::uint32_t> GrowingSurface::corners() const {
+  std::vector<std::uint32_t> corners(slots_.size());
+  for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = slots_[i].corner;
+  return corners;
 }
 
 void GrowingSurface::add(std::uint32_t triangle, const std::array<std::uint32_t, 3>& corners) {
-  for (std::uint32_t c = 0; c < 3; ++c) append(corners[c], 3 * triangle + c);
+  for (std::uint32_t c = 0; c < 3; ++c) {
+    slots_[3 * triangle + c].corner = corners[c];
+    append(corners[c], 3 * triangle + c);
+  }
 }
 
 std::uint32_t GrowingSurface::other(std::uint32_t slot, std::uint32_t which) const {
   const std::uint32_t corner = slot % 3, first = slot - corner;
-  return corners_[first + (corner + 1 + which) % 3];
+  return slots_[first + (corner + 1 + which) % 3].corner;
 }
 
 std::uint32_t GrowingSurface::neighbour(std::uint32_t a, std::uint32_t b,
                                         std::uint32_t place) const {
   std::uint32_t vertex = a, index = place / 2;
-  if (index >= count_[a]) {
-    index -= count_[a];
+  if (index >= rows_[a].count) {
+    index -= rows_[a].count;
     vertex = b;
   }
-  std::uint32_t slot = first_[vertex];
-  for (; index > 0; --index) slot = next_[slot];
+  std::uint32_t slot = rows_[vertex].first;
+  for (; index > 0; --index) slot = slots_[slot].next;
   return other(slot, place % 2);
 }
 
@@ -79,18 +84,18 @@ std::uint32_t GrowingSurface::place_of(std::uint32_t vertex, std::uint32_t a,
                                        std::uint32_t b) const {
   std::uint32_t place = 0;
   for (const std::uint32_t center : {a, b})
-    for (std::uint32_t slot = first_[center]; slot != kNone; slot = next_[slot])
+    for (std::uint32_t slot = rows_[center].first; slot != kNone; slot = slots_[slot].next)
       for (std::uint32_t which = 0; which < 2; ++which, ++place)
         if (other(slot, which) == vertex) return place;
   return kNone;
 }
 
-void write_division(const SplitFrame& frame, std::span<const std::uint32_t> takes,
-                    GrowingSurface& surface, BitWriter& bits) {
+void write_division(const SplitFrame& frame, GrowingSurface& surface, BitWriter& bits) {
   for (std::uint32_t v = frame.first_vertex; v < frame.end_vertex; ++v)
     surface.divide(frame.target[v], v, [&](std::uint32_t slot) {
-      bits.bits(takes[slot] == v ? 1 : 0, 1);
-      return takes[slot] == v;
+      const bool goes = surface.corner(slot) == v;
+      bits.bits(goes ? 1 : 0, 1);
+      return goes;
     });
 }
 

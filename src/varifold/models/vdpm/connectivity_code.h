@@ -28,18 +28,20 @@ class GrowingSurface {
   /// in the order of the list.
   template <class Goes>
   void divide(std::uint32_t target, std::uint32_t vertex, const Goes& goes) {
-    std::uint32_t slot = first_[target];
-    first_[target] = last_[target] = kNone;
-    count_[target] = 0;
+    std::uint32_t slot = rows_[target].first;
+    rows_[target] = {};
     while (slot != kNone) {
-      const std::uint32_t next = next_[slot];
-      append(goes(slot) ? vertex : target, slot);
+      const std::uint32_t next = slots_[slot].next;
+      // What stays may be marked for another vertex.
+      const bool is_going = goes(slot);
+      if (is_going) slots_[slot].corner = vertex;
+      append(is_going ? vertex : target, slot);
       slot = next;
     }
   }
   /// How many places neighbour() has.
   [[nodiscard]] std::uint32_t neighbours(std::uint32_t a, std::uint32_t b) const {
-    return 2 * (count_[a] + count_[b]);
+    return 2 * (rows_[a].count + rows_[b].count);
   }
   /// Other corners of the triangles of a, then of b; the same vertex may come again.
   [[nodiscard]] std::uint32_t neighbour(std::uint32_t a, std::uint32_t b,
@@ -47,14 +49,26 @@ class GrowingSurface {
   /// The first place of `vertex`, or kNone.
   [[nodiscard]] std::uint32_t place_of(std::uint32_t vertex, std::uint32_t a,
                                        std::uint32_t b) const;
-  [[nodiscard]] const std::vector<std::uint32_t>& corners() const { return corners_; }
+  [[nodiscard]] std::uint32_t corner(std::uint32_t slot) const { return slots_[slot].corner; }
+  /// Marks a slot of a target for the vertex that it goes to; the next split must hand it over.
+  void mark(std::uint32_t slot, std::uint32_t vertex) { slots_[slot].corner = vertex; }
+  /// What the next splits will read may be fetched early.
+  void prefetch(std::uint32_t slot) const { __builtin_prefetch(&slots_[slot]); }
+  /// Of all slots. O(slots).
+  [[nodiscard]] std::vector<std::uint32_t> corners() const;
 
  private:
   void append(std::uint32_t vertex, std::uint32_t slot);
   [[nodiscard]] std::uint32_t other(std::uint32_t slot, std::uint32_t which) const;
 
-  std::vector<std::uint32_t> corners_, next_;        // per slot
-  std::vector<std::uint32_t> first_, last_, count_;  // per vertex
+  struct Slot {
+    std::uint32_t corner = 0, next = kNone;
+  };
+  struct Row {
+    std::uint32_t first = kNone, last = kNone, count = 0;
+  };
+  std::vector<Slot> slots_;
+  std::vector<Row> rows_;  // of the vertices
 };
 
 /// What both directions know of a step before they read or write its record.
@@ -70,10 +84,9 @@ struct NewTriangle {
   std::uint32_t range = 0;
 };
 
-/// Which slots of the targets go to the vertices of a step; `takes` has the new vertex for each
-/// slot that goes, kNone for others. Changes the surface.
-void write_division(const SplitFrame& frame, std::span<const std::uint32_t> takes,
-                    GrowingSurface& surface, BitWriter& bits);
+/// Which slots of the targets go to the vertices of a step: those that are marked for them.
+/// Changes the surface.
+void write_division(const SplitFrame& frame, GrowingSurface& surface, BitWriter& bits);
 /// Appends the slots that go to `taken`, those of each vertex in one row, and where each row ends
 /// to `taken_end`. False where the bits end.
 [[nodiscard]] bool read_division(const SplitFrame& frame, GrowingSurface& surface, BitReader& bits,

@@ -21,18 +21,22 @@ std::vector<std::byte> encode_steps(const ViewDependentMesh& model) {
     surface.add(data.base_triangles[i], {data.base_corners[3 * i], data.base_corners[3 * i + 1],
                                          data.base_corners[3 * i + 2]});
   BitWriter bits;
-  std::vector<std::uint32_t> takes(std::size_t{3} * triangles, kNone);
   SplitFrame frame;
   frame.target = model.levels().targets();
   frame.ranges = std::max(1u, static_cast<std::uint32_t>(data.mesh.ranges.size()));
   for (std::uint32_t k = 0; k < model.step_count(); ++k) {
     frame.first_vertex = model.first_vertex(k);
     frame.end_vertex = model.first_vertex(k + 1);
-    // A slot may change again at a finer step, to a vertex of that.
+    constexpr std::uint32_t kAhead = 16;
+    if (k + kAhead < model.step_count())
+      model.for_each_changed(k + kAhead,
+                             [&](std::uint32_t triangle, std::uint32_t corner, std::uint32_t) {
+                               surface.prefetch(3 * triangle + corner);
+                             });
     model.for_each_changed(k, [&](std::uint32_t triangle, std::uint32_t corner, std::uint32_t v) {
-      takes[3 * std::size_t{triangle} + corner] = v;
+      surface.mark(3 * triangle + corner, v);
     });
-    vdpm::write_division(frame, takes, surface, bits);
+    vdpm::write_division(frame, surface, bits);
     model.for_each_added(
         k, [&](std::uint32_t triangle, const std::array<std::uint32_t, 3>& corners) {
           vdpm::write_triangle(frame, {corners, model.range_of(triangle)}, surface, bits);

@@ -4,8 +4,8 @@
 #include <varifold/models/vdpm/vertical_nearest.h>
 #include <varifold/models/vdpm/watch_bounds.h>
 #include <varifold/simplify/sample_carrier.h>
-#include <varifold/simplify/sequence_replay.h>
 #include <optional>
+#include <utility>
 
 namespace varifold {
 
@@ -33,47 +33,23 @@ std::uint32_t cone_of(const std::vector<Vec3>& normals, std::optional<std::uint3
   return cone_code::with_angle(code, std::sqrt((1 - double{cosine} + kCosineRounding) / 2));
 }
 
-// Walks down the sequence and measures the star of each collapse, before and after it.
-class StarWalk {
+// Measures the star of a collapse, before and after it.
+class StarMeasure {
  public:
-  StarWalk(const DetailedMesh& detailed, std::optional<std::uint32_t> axis_code)
-      : sequence_(detailed.sequence),
-        positions_(detailed.mesh.positions),
-        replay_(detailed),
-        axis_code_(axis_code) {}
+  StarMeasure(bool keeps_vertices, std::optional<std::uint32_t> axis_code)
+      : keeps_vertices_(keeps_vertices), axis_code_(axis_code) {}
 
-  [[nodiscard]] std::uint32_t level() const { return replay_.level(); }
-  void collapse(StepBounds& bounds, Vec3& center) {
-    const std::uint32_t k = replay_.level() - 1;
-    bounds.vertex = sequence_.vertices[k];
-    center = center_ = positions_[bounds.vertex];
+  void begin(const Vec3& center) {
+    center_ = center;
     squared_ = 0;
     normals_.clear();
-    slots_.clear();
-    for (std::uint32_t v = sequence_.vertices[k]; v < sequence_.vertices[k + 1]; ++v)
-      replay_.slots_of(v, slots_);
-    add_star(k);
-    replay_.collapse();
-    slots_.assign(replay_.changed().begin(), replay_.changed().end());
-    for (std::uint32_t j = first_placed(k); j < first_placed(k + 1); ++j)
-      positions_[sequence_.placed_vertex[j]] = sequence_.placed.positions[j];
-    add_star(k);
-    bounds.radius = length_code(std::sqrt(squared_));
-    bounds.cone = cone_of(normals_, axis_code_);
   }
-
- private:
-  [[nodiscard]] std::uint32_t first_placed(std::uint32_t level) const {
-    return sequence_.moves_vertices() ? sequence_.first_placed[level] : 0;
-  }
-  // The triangles of slots_ and those around the vertices that the step moves.
-  void add_star(std::uint32_t step) {
-    for (std::uint32_t j = first_placed(step); j < first_placed(step + 1); ++j)
-      replay_.slots_of(sequence_.placed_vertex[j], slots_);
-    if (sequence_.moves_vertices()) keep_triangles_once();
-    for (const std::uint32_t slot : slots_) {
-      const std::uint32_t* corner = &replay_.corners()[3 * std::size_t{slot / 3}];
-      const Vec3 p[3] = {positions_[corner[0]], positions_[corner[1]], positions_[corner[2]]};
+  void add(const SampleCarrier& carrier, std::span<const std::uint32_t> slots) {
+    if (!keeps_vertices_) slots = triangles_once(slots);
+    for (const std::uint32_t slot : slots) {
+      const std::uint32_t* corner = &carrier.corners()[3 * std::size_t{slot / 3}];
+      const Vec3 p[3] = {carrier.position(corner[0]), carrier.position(corner[1]),
+                         carrier.position(corner[2])};
       for (const Vec3& q : p) {
         const DVec3 from_center = DVec3(q) - DVec3(center_);
         squared_ = std::max(squared_, glm::dot(from_center, from_center));
@@ -82,16 +58,19 @@ class StarWalk {
       if (normal != Vec3(0)) normals_.push_back(normal);
     }
   }
+  [[nodiscard]] std::uint16_t radius() const { return length_code(std::sqrt(squared_)); }
+  [[nodiscard]] std::uint32_t cone() const { return cone_of(normals_, axis_code_); }
 
-  void keep_triangles_once() {
+ private:
+  std::span<const std::uint32_t> triangles_once(std::span<const std::uint32_t> slots) {
+    slots_.assign(slots.begin(), slots.end());
     for (std::uint32_t& slot : slots_) slot -= slot % 3;
     std::sort(slots_.begin(), slots_.end());
     slots_.erase(std::unique(slots_.begin(), slots_.end()), slots_.end());
+    return slots_;
   }
 
-  const CollapseSequence& sequence_;
-  std::vector<Vec3> positions_;  // at the present level
-  SequenceReplay replay_;
+  bool keeps_vertices_;
   std::optional<std::uint32_t> axis_code_;
   Vec3 center_{0};
   double squared_ = 0;
@@ -99,32 +78,42 @@ class StarWalk {
   std::vector<Vec3> normals_;
 };
 
-bool measure_stars(const DetailedMesh& detailed, const StepBoundsOptions& options,
-                   std::vector<StepBounds>& bounds, std::vector<Vec3>& centers) {
-  constexpr std::uint32_t kReportEvery = 16384;
-  std::optional<std::uint32_t> axis_code;
-  if (options.vertical) axis_code = cone_code::code_of_axis(options.up);
-  StarWalk walk(detailed, axis_code);
-  for (std::size_t k = bounds.size(); k-- > 0;) {
-    walk.collapse(bounds[k], centers[k]);
-    if (k % kReportEvery == 0 &&
-        !report(options.progress, "stars",
-                1 - static_cast<float>(k) / static_cast<float>(bounds.size())))
-      return false;
-  }
-  return true;
-}
+// What a carrier finds out about all steps with its share of the samples.
+struct ShareOfBounds {
+  StarMeasure star;
+  NearestTriangle nearest;
+  VerticalNearest vertical;
+  std::vector<DeviationGatherer> spaces;
+  // Where the stars are noted, in one of the shares.
+  std::vector<StepBounds>* bounds = nullptr;
+  std::vector<Vec3>* centers = nullptr;
+};
 
-// One collapse of a carrier, with what it does to its samples.
+// One collapse of a carrier: its star, and what it does to samples. Every carrier measures the
+// stars, since it needs their axes at once; one of them notes them.
 template <bool kVertical, class Nearest>
-void gather_residuals(const DetailedMesh& detailed, const std::vector<StepBounds>& bounds,
-                      Nearest& nearest, SampleCarrier& carrier,
-                      std::vector<DeviationGatherer>& spaces) {
+void measure_step(const CollapseSequence& sequence, Nearest& nearest, ShareOfBounds& share,
+                  SampleCarrier& carrier) {
   const std::uint32_t step = carrier.level() - 1;
-  const Vec3 axis = bounds[step].own_cone().axis;
-  const std::uint32_t target = detailed.sequence.target[bounds[step].vertex];
+  const std::uint32_t vertex = sequence.vertices[step], target = sequence.target[vertex];
+  const Vec3 center = carrier.position(vertex);
+  share.star.begin(center);
+  bool is_after = false;
+  Vec3 axis(0);
+  const auto add_star = [&](std::span<const std::uint32_t> slots) {
+    share.star.add(carrier, slots);
+    if (!std::exchange(is_after, true)) return;
+    const std::uint32_t cone = share.star.cone();
+    axis = unpack_cone(cone).axis;
+    if (share.bounds == nullptr) return;
+    StepBounds& bounds = (*share.bounds)[step];
+    bounds.vertex = vertex;
+    bounds.cone = cone;
+    bounds.radius = share.star.radius();
+    (*share.centers)[step] = center;
+  };
   DeviationGatherer space;
-  carrier.collapse(nearest, [&](const SampleCarrier::Sample& sample, Vec3 residual) {
+  const auto add_residual = [&](const SampleCarrier::Sample& sample, Vec3 residual) {
     // The triangles at the target of an ear are no part of its star: they may be others where
     // levels differ from place to place. The target is there.
     if (carrier.is_ear()) residual = carrier.position(target) - sample.position;
@@ -134,31 +123,40 @@ void gather_residuals(const DetailedMesh& detailed, const std::vector<StepBounds
       space.add_vertical(std::abs(along), across);
     else
       space.add(std::abs(along), across);
-  });
-  spaces[step] = space;
+  };
+  carrier.collapse(nearest, add_residual, add_star);
+  share.spaces[step] = space;
 }
 
-bool measure_spaces(const DetailedMesh& detailed, const StepBoundsOptions& options,
-                    std::vector<StepBounds>& bounds) {
-  const std::uint32_t shares = sample_shares(options.threads, detailed.sequence);
-  std::vector<std::vector<DeviationGatherer>> spaces(shares,
-                                                     std::vector<DeviationGatherer>(bounds.size()));
-  std::vector<NearestTriangle> nearest(shares);
-  const Vec3 up = unpack_cone(cone_code::code_of_axis(options.up)).axis;
-  std::vector<VerticalNearest> vertical(shares, VerticalNearest(up));
-  const auto collapse = [&](std::uint32_t share, SampleCarrier& carrier) {
+bool measure_own_bounds(const DetailedMesh& detailed, const StepBoundsOptions& options,
+                        const SequenceHistory* history, std::vector<Vec3>& centers,
+                        std::vector<StepBounds>& bounds) {
+  const CollapseSequence& sequence = detailed.sequence;
+  const std::uint32_t up = cone_code::code_of_axis(options.up);
+  const StarMeasure star(!sequence.moves_vertices(),
+                         options.vertical ? std::optional(up) : std::nullopt);
+  std::vector<ShareOfBounds> shares(sample_shares(options.threads, sequence),
+                                    {star,
+                                     {},
+                                     VerticalNearest(unpack_cone(up).axis),
+                                     std::vector<DeviationGatherer>(bounds.size())});
+  shares[0].bounds = &bounds;
+  shares[0].centers = &centers;
+  const auto collapse = [&](std::uint32_t number, SampleCarrier& carrier) {
+    ShareOfBounds& share = shares[number];
     if (options.vertical)
-      gather_residuals<true>(detailed, bounds, vertical[share], carrier, spaces[share]);
+      measure_step<true>(sequence, share.vertical, share, carrier);
     else
-      gather_residuals<false>(detailed, bounds, nearest[share], carrier, spaces[share]);
+      measure_step<false>(sequence, share.nearest, share, carrier);
   };
   if (!carry_samples(
-          detailed, {options.threads, options.progress, options.inside_triangles, options.on_edges},
+          detailed,
+          {options.threads, options.progress, options.inside_triangles, options.on_edges, history},
           collapse))
     return false;
   for (std::size_t k = 0; k < bounds.size(); ++k) {
     DeviationGatherer all;
-    for (const auto& share : spaces) all.add(share[k]);
+    for (const ShareOfBounds& share : shares) all.add(share.spaces[k]);
     const DeviationSpace space = options.vertical ? all.vertical() : all.best();
     bounds[k].mu = length_code(space.mu);
     bounds[k].delta = length_code(space.delta);
@@ -169,11 +167,15 @@ bool measure_spaces(const DetailedMesh& detailed, const StepBoundsOptions& optio
 }  // namespace
 
 bool measure_step_bounds(const DetailedMesh& detailed, std::span<const std::uint32_t> watch_parent,
-                         const StepBoundsOptions& options, std::vector<StepBounds>& bounds) {
+                         const StepBoundsOptions& options, std::vector<StepBounds>& bounds,
+                         const SequenceHistory* history) {
   bounds.assign(detailed.sequence.step_count(), {});
   std::vector<Vec3> centers(bounds.size());
-  if (!measure_stars(detailed, options, bounds, centers)) return false;
-  if (!measure_spaces(detailed, options, bounds)) return false;
+  {
+    std::optional<SequenceHistory> own;
+    if (history == nullptr && !detailed.sequence.moves_vertices()) history = &own.emplace(detailed);
+    if (!measure_own_bounds(detailed, options, history, centers, bounds)) return false;
+  }
   nest_bounds(watch_parent, centers, bounds);
   return true;
 }

@@ -9,6 +9,7 @@
 #include <varifold/base/progress.h>
 #include <varifold/models/common/error_code.h>
 #include <varifold/simplify/collapse_sequence.h>
+#include <varifold/simplify/sequence_history.h>
 #include <varifold/view/cone_code.h>
 #include <algorithm>
 #include <cmath>
@@ -78,9 +79,10 @@ struct StepBoundsOptions {
 /// vertices, its only one).
 ///
 /// O(n log n) expected; 32 bytes of scratch a step and thread share beside those of
-/// SampleCarrier. Returns false when cancelled.
+/// SampleCarrier. A history of the sequence saves making one. Returns false when cancelled.
 bool measure_step_bounds(const DetailedMesh& detailed, std::span<const std::uint32_t> watch_parent,
-                         const StepBoundsOptions& options, std::vector<StepBounds>& bounds);
+                         const StepBoundsOptions& options, std::vector<StepBounds>& bounds,
+                         const SequenceHistory* history = nullptr);
 
 namespace step_bounds {
 
