@@ -40,6 +40,8 @@ count build_progressive_mesh 'varifold::build_progressive_mesh(*const&)'
 count go_to_level 'varifold::ProgressiveMeshInstance::go_to_level(unsigned int)'
 count build_block_form 'varifold::build_block_form(*)'
 count lod_strips_go_to_level 'varifold::LodStripsInstance::go_to_level(unsigned int)'
+count build_view_dependent_mesh 'varifold::build_view_dependent_mesh(*)'
+count adapt_front 'varifold::ViewFront::adapt(*)'
 [ "$compiler" = "$known" ] || echo "$counts is of another compiler: ${known:-none}"
 if [ "$mode" = update ]; then
   cp "$out/counts.txt" "$counts"
