@@ -8,7 +8,8 @@ out=build/no_exceptions
 mkdir -p "$out"
 
 # Of base, mesh and simplify what the runtime uses; of each model everything but its build.
-sources="src/varifold/base/checksum.cpp src/varifold/mesh/triangle_mesh.cpp"
+sources="src/varifold/base/checksum.cpp src/varifold/base/parallel.cpp"
+sources="$sources src/varifold/mesh/triangle_mesh.cpp src/varifold/simplify/target_tree.cpp"
 sources="$sources $(git ls-files 'src/varifold/simplify/sequence_*.cpp' | grep -v sequence_builder)"
 sources="$sources $(git ls-files 'src/varifold/view/*.cpp')"
 sources="$sources $(git ls-files 'src/varifold/models/*/*.cpp' | grep -v -E '([/_]build[a-z_]*|static_removal|step_bounds|watch_bounds)\.cpp$')"
@@ -26,5 +27,5 @@ for source in $sources; do
 done
 printf '%s' "$commands" | xargs -P "$(nproc)" -L 1 sh -c "$compiler -std=c++20 -O1 -Wall -Wextra -ffp-contract=off \
   -fno-exceptions -fno-rtti -Isrc -c \"\$0\" -o \"\$1\""
-g++ -fno-exceptions -fno-rtti $objects -lxxhash -o "$out/no_exceptions"
+g++ -fno-exceptions -fno-rtti $objects -lxxhash -ltbb -o "$out/no_exceptions"
 "$out/no_exceptions"
