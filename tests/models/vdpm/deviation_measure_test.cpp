@@ -11,18 +11,6 @@
 namespace varifold::test {
 namespace {
 
-RefineCriteria view_of(const Sphere& ball, Random& random) {
-  const float radius = std::max(ball.radius, 0.1f);
-  const auto part = [&] { return static_cast<float>(2 * random.uniform() - 1); };
-  Camera camera;
-  camera.target = ball.center;
-  camera.eye = ball.center + radius * (Vec3(1.3f, 0.4f, 1.1f) + Vec3(part(), part(), part()));
-  set_depth_range(camera, ball);
-  RefineCriteria criteria;
-  criteria.view.emplace(camera);
-  return criteria;
-}
-
 // All steps whose greater bound is seen too large from the nearest point of their ball, facing and
 // in the frustum aside, and all that they require.
 std::vector<bool> front_by_lengths(const ViewDependentMesh& model, const RefineCriteria& criteria,
@@ -47,7 +35,7 @@ TEST(DeviationMeasure, OfLengthsIsThatOfTheGreaterBoundInAllDirections) {
   for (const NamedVdpm& named : all_vdpms()) {
     ViewDependentInstance instance(named.model);
     for (const float tolerance : {0.5f, 4.0f, 20.0f}) {
-      RefineCriteria criteria = view_of(named.model->bounding_ball(), random);
+      RefineCriteria criteria = random_view(named.model->bounding_ball(), random);
       // With a place of the user steps are asked one by one, and not in batches.
       if (tolerance == 4) criteria.sphere = Sphere{Vec3(1e6f), 1};
       const std::uint32_t seen = instance.adapt(criteria, {tolerance}).triangles;
@@ -94,7 +82,7 @@ TEST(DeviationMeasure, OfLengthsBoundsPointsBetweenTheSamples) {
       ViewDependentInstance instance(model);
       Random random(2);
       for (int i = 0; i < 6; ++i) {
-        RefineCriteria criteria = view_of(model->bounding_ball(), random);
+        RefineCriteria criteria = random_view(model->bounding_ball(), random);
         criteria.view->outside_weight = criteria.view->back_weight = 1;
         criteria.view->deviation = DeviationMeasure::kLength;
         const float tolerance = i % 2 == 0 ? 1.0f : 4.0f;

@@ -7,19 +7,6 @@
 namespace varifold::test {
 namespace {
 
-RefineCriteria view_of(const ViewDependentMesh& model, Random& random) {
-  const Sphere ball = model.bounding_ball();
-  const float radius = std::max(ball.radius, 0.1f);
-  const auto part = [&] { return static_cast<float>(2 * random.uniform() - 1); };
-  Camera camera;
-  camera.target = ball.center;
-  camera.eye = ball.center + radius * (Vec3(1.3f, 0.4f, 1.1f) + Vec3(part(), part(), part()));
-  set_depth_range(camera, ball);
-  RefineCriteria criteria;
-  criteria.view.emplace(camera);
-  return criteria;
-}
-
 // Steps that are split, but whose own region the view does not ask for.
 std::uint32_t split_unasked(const ViewDependentInstance& instance, const RefineCriteria& criteria,
                             float tolerance) {
@@ -37,7 +24,7 @@ TEST(ForcedSplits, OfAFreshFrontAreTheUnaskedOnes) {
   std::uint32_t all = 0;
   for (const NamedVdpm& named : all_vdpms()) {
     for (const float tolerance : {0.5f, 4.0f, 20.0f}) {
-      const RefineCriteria criteria = view_of(*named.model, random);
+      const RefineCriteria criteria = random_view(named.model->bounding_ball(), random);
       ViewDependentInstance instance(named.model);
       const FrontStatistics told = instance.adapt(criteria, {tolerance});
       EXPECT_EQ(told.forced_splits, split_unasked(instance, criteria, tolerance)) << named.name;

@@ -40,26 +40,30 @@ TEST(VdpmInstance, AllocatesNothingOnceWarm) {
   }
 }
 
-TEST(VdpmInstance, FramesAllocateNothingWhereTheyHaveBeen) {
+// `draw` takes the list of a frame.
+template <class Draw>
+void expect_no_allocation_on_orbit(const Draw& draw) {
   const NamedVdpm named = make_vdpm({"sphere", icosphere(5000)}, Placement::kKept);
   const Sphere ball = named.model->bounding_ball();
   ViewDependentInstance instance(named.model);
   for (int round = 0; round < 8; ++round) {
     const std::size_t before = allocations;
     for (int frame = 0; frame < 100; ++frame) {
-      const float angle = 0.0628f * static_cast<float>(frame);
-      Camera camera;
-      camera.eye = ball.center + 3 * ball.radius * Vec3(std::cos(angle), 0.4f, std::sin(angle));
-      camera.target = ball.center;
-      RefineCriteria criteria;
-      criteria.view.emplace(camera);
-      instance.adapt(criteria, {0.5f, kNone});
-      (void)instance.draw_list();
+      instance.adapt(orbit_view(ball, frame), {0.5f, kNone});
+      draw(instance);
     }
     if (round == 7) {
       EXPECT_EQ(allocations, before);
     }
   }
+}
+
+TEST(VdpmInstance, FramesAllocateNothingWhereTheyHaveBeen) {
+  expect_no_allocation_on_orbit([](auto& instance) { (void)instance.draw_list(); });
+}
+
+TEST(VdpmInstance, FramesOfStripsAllocateNothingWhereTheyHaveBeen) {
+  expect_no_allocation_on_orbit([](auto& instance) { (void)instance.draw_strips(); });
 }
 
 TEST(VdpmInstance, StripsAllocateNothingWhereTheyHaveBeen) {
@@ -80,28 +84,6 @@ TEST(VdpmInstance, StripsAllocateNothingWhereTheyHaveBeen) {
   }
 }
 
-TEST(VdpmInstance, FramesOfStripsAllocateNothingWhereTheyHaveBeen) {
-  const NamedVdpm named = make_vdpm({"sphere", icosphere(5000)}, Placement::kKept);
-  const Sphere ball = named.model->bounding_ball();
-  ViewDependentInstance instance(named.model);
-  for (int round = 0; round < 8; ++round) {
-    const std::size_t before = allocations;
-    for (int frame = 0; frame < 100; ++frame) {
-      const float angle = 0.0628f * static_cast<float>(frame);
-      Camera camera;
-      camera.eye = ball.center + 3 * ball.radius * Vec3(std::cos(angle), 0.4f, std::sin(angle));
-      camera.target = ball.center;
-      RefineCriteria criteria;
-      criteria.view.emplace(camera);
-      instance.adapt(criteria, {0.5f, kNone});
-      (void)instance.draw_strips();
-    }
-    if (round == 7) {
-      EXPECT_EQ(allocations, before);
-    }
-  }
-}
-
 // Whatever the front still finds room for, morphs need no more.
 TEST(VdpmInstance, MorphsAllocateNothingWhereTheyHaveBeen) {
   const NamedVdpm named = make_vdpm({"sphere", icosphere(5000)}, Placement::kKept);
@@ -115,13 +97,7 @@ TEST(VdpmInstance, MorphsAllocateNothingWhereTheyHaveBeen) {
       limits.morph_frames = with == 0 ? 0 : 15;
       const std::size_t before = allocations;
       for (int frame = 0; frame < 100; ++frame) {
-        const float angle = 0.0628f * static_cast<float>(frame);
-        Camera camera;
-        camera.eye = ball.center + 3 * ball.radius * Vec3(std::cos(angle), 0.4f, std::sin(angle));
-        camera.target = ball.center;
-        RefineCriteria criteria;
-        criteria.view.emplace(camera);
-        instances[with].adapt(criteria, {0.5f, kNone}, limits);
+        instances[with].adapt(orbit_view(ball, frame), {0.5f, kNone}, limits);
         (void)instances[with].draw_list();
       }
       made[with] = allocations - before;

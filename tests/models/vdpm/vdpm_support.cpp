@@ -3,6 +3,7 @@
 #include <tests/models/strips/strips_support.h>
 #include <varifold/mesh/weld.h>
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace varifold::test {
@@ -128,6 +129,28 @@ void RandomWalk::walk(ActiveSurface& surface, std::uint32_t tries, double upward
       surface.split(step);
     split_[step] = !split_[step];
   }
+}
+
+RefineCriteria random_view(const Sphere& ball, Random& random) {
+  const float radius = std::max(ball.radius, 0.1f);
+  const auto part = [&] { return static_cast<float>(2 * random.uniform() - 1); };
+  Camera camera;
+  camera.target = ball.center;
+  camera.eye = ball.center + radius * (Vec3(1.3f, 0.4f, 1.1f) + Vec3(part(), part(), part()));
+  set_depth_range(camera, ball);
+  RefineCriteria criteria;
+  criteria.view.emplace(camera);
+  return criteria;
+}
+
+RefineCriteria orbit_view(const Sphere& ball, int frame) {
+  const float angle = 0.0628f * static_cast<float>(frame);
+  Camera camera;
+  camera.eye = ball.center + 3 * ball.radius * Vec3(std::cos(angle), 0.4f, std::sin(angle));
+  camera.target = ball.center;
+  RefineCriteria criteria;
+  criteria.view.emplace(camera);
+  return criteria;
 }
 
 }  // namespace varifold::test

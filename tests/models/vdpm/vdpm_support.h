@@ -31,6 +31,11 @@ struct NamedVdpm {
 [[nodiscard]] TriangleMesh mesh_of_steps(const DetailedMesh& detailed,
                                          const std::vector<bool>& split);
 
+/// A camera near a mesh with this ball, somewhere in front of it.
+[[nodiscard]] RefineCriteria random_view(const Sphere& ball, Random& random);
+/// Frame `frame` of 100 of an orbit at three radii.
+[[nodiscard]] RefineCriteria orbit_view(const Sphere& ball, int frame);
+
 /// Does single steps that the rule allows, in any order, on a surface and in a list of what is
 /// split. Knows the rule from the requirements alone.
 class RandomWalk {
