@@ -303,15 +303,6 @@ TEST(FrontStrips, StayWithinTheirMaterial) {
   EXPECT_TRUE(sorted(drawn(list)) == sorted(listed(triangles)));
 }
 
-RefineCriteria criteria_at(const Sphere& ball, float angle) {
-  Camera camera;
-  camera.eye = ball.center + 3 * ball.radius * Vec3(std::cos(angle), 0.4f, std::sin(angle));
-  camera.target = ball.center;
-  RefineCriteria criteria;
-  criteria.view.emplace(camera);
-  return criteria;
-}
-
 TEST(FrontStrips, OfAnInstanceAreThoseOfItsTriangles) {
   for (const NamedMesh& mesh : {NamedMesh{"sphere", icosphere(5000)}, group_seams().back()}) {
     const NamedVdpm named = make_vdpm(mesh, Placement::kKept);
@@ -320,7 +311,7 @@ TEST(FrontStrips, OfAnInstanceAreThoseOfItsTriangles) {
     for (int frame = 0; frame < 60; ++frame) {
       // Now and then the camera rests, and now and then someone else asks for the triangles.
       const auto angle = 0.05f * static_cast<float>(frame - frame % 4);
-      const auto criteria = criteria_at(named.model->bounding_ball(), angle);
+      const auto criteria = orbit_view(named.model->bounding_ball(), angle);
       (void)shown.adapt(criteria, {0.5f, kNone});
       (void)other.adapt(criteria, {0.5f, kNone});
       if (frame % 7 == 0) (void)shown.draw_list();

@@ -49,7 +49,7 @@ void expect_no_allocation_on_orbit(const Draw& draw) {
   for (int round = 0; round < 8; ++round) {
     const std::size_t before = allocations;
     for (int frame = 0; frame < 100; ++frame) {
-      instance.adapt(orbit_view(ball, frame), {0.5f, kNone});
+      instance.adapt(orbit_view(ball, 0.0628f * static_cast<float>(frame)), {0.5f, kNone});
       draw(instance);
     }
     if (round == 7) {
@@ -97,7 +97,8 @@ TEST(VdpmInstance, MorphsAllocateNothingWhereTheyHaveBeen) {
       limits.morph_frames = with == 0 ? 0 : 15;
       const std::size_t before = allocations;
       for (int frame = 0; frame < 100; ++frame) {
-        instances[with].adapt(orbit_view(ball, frame), {0.5f, kNone}, limits);
+        instances[with].adapt(orbit_view(ball, 0.0628f * static_cast<float>(frame)), {0.5f, kNone},
+                              limits);
         (void)instances[with].draw_list();
       }
       made[with] = allocations - before;

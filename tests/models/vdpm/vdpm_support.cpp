@@ -143,8 +143,7 @@ RefineCriteria random_view(const Sphere& ball, Random& random) {
   return criteria;
 }
 
-RefineCriteria orbit_view(const Sphere& ball, int frame) {
-  const float angle = 0.0628f * static_cast<float>(frame);
+RefineCriteria orbit_view(const Sphere& ball, float angle) {
   Camera camera;
   camera.eye = ball.center + 3 * ball.radius * Vec3(std::cos(angle), 0.4f, std::sin(angle));
   camera.target = ball.center;

@@ -33,8 +33,8 @@ struct NamedVdpm {
 
 /// A camera near a mesh with this ball, somewhere in front of it.
 [[nodiscard]] RefineCriteria random_view(const Sphere& ball, Random& random);
-/// Frame `frame` of 100 of an orbit at three radii.
-[[nodiscard]] RefineCriteria orbit_view(const Sphere& ball, int frame);
+/// On an orbit at three radii; the angle in radians.
+[[nodiscard]] RefineCriteria orbit_view(const Sphere& ball, float angle);
 
 /// Does single steps that the rule allows, in any order, on a surface and in a list of what is
 /// split. Knows the rule from the requirements alone.
