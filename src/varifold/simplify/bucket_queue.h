@@ -68,6 +68,29 @@ class BucketQueue {
     return bucket;
   }
 
+  /// Entries in buckets below `limit`. O(buckets + chunks).
+  [[nodiscard]] std::size_t count_below(std::uint32_t limit) const {
+    std::size_t count = 0;
+    for (std::uint32_t bucket = current_; bucket < limit; ++bucket)
+      for (std::uint32_t i = heads_[bucket]; i != kNone; i = chunks_[i].next)
+        count += chunks_[i].size;
+    return count;
+  }
+
+  /// Moves the entries of one bucket to another queue. O(entries + bucket).
+  void give(std::uint32_t bucket, BucketQueue& other) {
+    for (std::uint32_t i = heads_[bucket]; i != kNone;) {
+      for (std::uint32_t k = 0; k < chunks_[i].size; ++k)
+        other.push(chunks_[i].vertices[k], bucket);
+      size_ -= chunks_[i].size;
+      const std::uint32_t next = chunks_[i].next;
+      chunks_[i].next = free_;
+      free_ = i;
+      i = next;
+    }
+    heads_[bucket] = kNone;
+  }
+
   /// Takes all entries of `other`, which is empty afterwards.
   void take(BucketQueue& other) {
     for (std::uint32_t bucket = 0; bucket < kBucketCount; ++bucket) {

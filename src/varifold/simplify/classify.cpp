@@ -66,6 +66,25 @@ bool is_book(WorkingSurface& surface, std::uint32_t point) {
   return true;
 }
 
+bool meets_regions(const WorkingSurface& surface, std::span<const RingEntry> ring) {
+  if (surface.region_of.empty()) return false;
+  std::uint32_t region = kNone;
+  for (const RingEntry& entry : ring) {
+    if (entry.face == kNone) continue;
+    if (region != kNone && surface.region_of[entry.face] != region) return true;
+    region = surface.region_of[entry.face];
+  }
+  return false;
+}
+
+std::size_t count_regions(const WorkingSurface& surface, std::span<const RingEntry> ring) {
+  std::vector<std::uint32_t> regions;
+  for (const RingEntry& entry : ring)
+    if (entry.face != kNone) regions.push_back(surface.region_of[entry.face]);
+  std::sort(regions.begin(), regions.end());
+  return static_cast<std::size_t>(std::unique(regions.begin(), regions.end()) - regions.begin());
+}
+
 VertexKind kind_of(WorkingSurface& surface, std::uint32_t point) {
   const auto ring = surface.ring_span(point);
   const WedgeTables& wedge = surface.wedge;
@@ -74,19 +93,22 @@ VertexKind kind_of(WorkingSurface& surface, std::uint32_t point) {
 
   std::size_t gaps = 0;
   for (const RingEntry& entry : ring) gaps += entry.face == kNone;
-  if (gaps == 0 && !wedge.has_seams()) return VertexKind::kManifold;
+  const bool divided = meets_regions(surface, ring);
+  if (gaps == 0 && !wedge.has_seams() && !divided) return VertexKind::kManifold;
   if (gaps > 1) surface.points[point].flags |= PointState::kIrregular;
   if (gaps > 1 && ring.size() > kMaxIrregularRing) return VertexKind::kLocked;
-  if (gaps == 1 && !wedge.has_seams() && ring.size() > kMaxIrregularRing)
+  if (((gaps == 1 && !wedge.has_seams()) || divided) && ring.size() > kMaxIrregularRing)
     return VertexKind::kCorner;
 
   const FeatureEdges features = find_features(surface, point);
   if (features.count == 0) return gaps == 0 ? VertexKind::kManifold : VertexKind::kLocked;
   const bool alike = features.count == 2 && features.first.faces() == features.second.faces() &&
-                     features.first.seam == features.second.seam;
+                     features.first.seam == features.second.seam &&
+                     features.first.region == features.second.region;
   if (!alike) return gaps <= 1 ? VertexKind::kCorner : VertexKind::kLocked;
   if (gaps == 0) return VertexKind::kSeam;
   if (!is_book(surface, point) || features.first.faces() != gaps) return VertexKind::kLocked;
+  if (divided && count_regions(surface, ring) > 2) return VertexKind::kLocked;
   return gaps == 1 ? VertexKind::kBorder : VertexKind::kNonManifold;
 }
 
@@ -107,7 +129,10 @@ EdgeUse edge_use(WorkingSurface& surface, std::uint32_t point, std::uint32_t nei
       arriving_face = ring[i].face;
     }
   }
-  if (surface.wedge.has_seams() && use.leaving == 1 && use.arriving == 1)
+  if (use.leaving != 1 || use.arriving != 1) return use;
+  if (!surface.region_of.empty())
+    use.region = surface.region_of[leaving_face] != surface.region_of[arriving_face];
+  if (surface.wedge.has_seams())
     use.seam = differ_across(surface, leaving_face, arriving_face, point, neighbor);
   return use;
 }
@@ -115,7 +140,8 @@ EdgeUse edge_use(WorkingSurface& surface, std::uint32_t point, std::uint32_t nei
 void classify_points(WorkingSurface& surface, int threads) {
   parallel_for(threads, surface.point_count(), 4096, [&](std::size_t begin, std::size_t end) {
     for (auto p = static_cast<std::uint32_t>(begin); p < end; ++p)
-      surface.points[p].kind = kind_of(surface, p);
+      if (!(surface.points[p].flags & PointState::kDead))
+        surface.points[p].kind = kind_of(surface, p);
   });
 }
 

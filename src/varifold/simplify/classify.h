@@ -11,8 +11,9 @@ struct EdgeUse {
   std::uint32_t leaving = 0;   ///< faces (point, neighbour, ...)
   std::uint32_t arriving = 0;  ///< faces (point, ..., neighbour)
   bool seam = false;           ///< two faces that differ in material or chart
+  bool region = false;         ///< two faces of different regions
   [[nodiscard]] std::uint32_t faces() const { return leaving + arriving; }
-  [[nodiscard]] bool is_feature() const { return leaving != 1 || arriving != 1 || seam; }
+  [[nodiscard]] bool is_feature() const { return leaving != 1 || arriving != 1 || seam || region; }
 };
 
 /// O(ring).

@@ -23,7 +23,8 @@ class Rounds {
       cell.end = std::min(count, begin + size);
     }
     if (cells_.empty()) cells_.emplace_back();
-    live_points_ = count;
+    live_points_ = surface.live_points();
+    merge_cells();
   }
 
   CollapseLog run() {
@@ -61,13 +62,47 @@ class Rounds {
     for (const Cell& cell : cells_) lowest = std::min(lowest, cell.queue.lowest());
     if (lowest == BucketQueue::kBucketCount) return false;
     const bool alone = cells_.size() == 1;
-    const std::uint32_t limit =
+    std::uint32_t limit =
         (lowest / BucketQueue::kBucketsPerOctave + 1) * BucketQueue::kBucketsPerOctave;
+    if (options_.exact && !share_out(lowest, limit)) {
+      drain_last(lowest);
+      return true;
+    }
 
     for_each_cell([&](Cell& cell) { collapser_.drain(cell, limit, !alone); });
     merge_logs(lowest, limit);
     if (!alone) drain_borders(limit);
     return true;
+  }
+
+  // Divides the faces that may still go among the cells, by what they have to do below a limit that
+  // is lowered until there is enough for all. False where the end is too near for that.
+  bool share_out(std::uint32_t lowest, std::uint32_t& limit) {
+    const std::uint64_t remaining = surface_.face_count - options_.target_faces;
+    const auto entries_below = [&] {
+      std::uint64_t sum = 0;
+      for (const Cell& cell : cells_) sum += cell.queue.count_below(limit);
+      return sum;
+    };
+    // A collapse removes two faces, and gives way to another one nearby.
+    const auto fits = [&](std::uint64_t entries) { return 5 * entries <= 2 * remaining; };
+    std::uint64_t entries = entries_below();
+    while (!fits(entries) && limit > lowest + 1) {
+      limit = lowest + (limit - lowest) / 2;
+      entries = entries_below();
+    }
+    if (!fits(entries) || remaining < 16 * cells_.size()) return false;
+    for (Cell& cell : cells_)
+      cell.most_faces = remaining * (1 + cell.queue.count_below(limit)) / (entries + cells_.size());
+    return true;
+  }
+
+  // The lowest bucket of all cells by one thread, up to the target.
+  void drain_last(std::uint32_t bucket) {
+    border_.queue.restart();
+    for (Cell& cell : cells_)
+      if (cell.queue.lowest() == bucket) cell.queue.give(bucket, border_.queue);
+    drain_border_cell(bucket + 1);
   }
 
   // A point that had no legal collapse is woken by changes in its own ring only, though one farther
@@ -125,19 +160,27 @@ class Rounds {
 
   // What touched other cells: now nobody else is at work.
   void drain_borders(std::uint32_t limit) {
-    Cell& border = border_;
-    border.begin = 0;
-    border.end = surface_.point_count();
-    border.queue.restart();
-    collapser_.home_cells = &cells_;
-    collapser_.points_per_home = cells_.front().end;
+    border_.queue.restart();
     for (Cell& cell : cells_) {
       for (const std::uint32_t point : cell.deferred) {
         surface_.points[point].flags |= PointState::kDirty;
-        border.queue.push(point, 0);
+        border_.queue.push(point, 0);
       }
       cell.deferred.clear();
     }
+    drain_border_cell(limit);
+  }
+
+  void drain_border_cell(std::uint32_t limit) {
+    Cell& border = border_;
+    border.begin = 0;
+    border.end = surface_.point_count();
+    if (options_.exact) {
+      if (surface_.face_count <= options_.target_faces) return;
+      border.most_faces = surface_.face_count - options_.target_faces;
+    }
+    collapser_.home_cells = &cells_;
+    collapser_.points_per_home = cells_.front().end;
     collapser_.drain(border, limit, false);
     collapser_.home_cells = nullptr;
     append(border);

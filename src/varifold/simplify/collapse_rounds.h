@@ -17,7 +17,8 @@ struct CollapseLog {
 };
 
 struct RoundOptions {
-  std::uint32_t target_faces = 0;  ///< stop after the round that reaches it
+  std::uint32_t target_faces = 0;  ///< stop after the round that reaches it, ...
+  bool exact = false;              ///< ... or after the collapse that does
   int threads = 0;                 ///< 0 = all
   Progress progress;
 };

@@ -90,6 +90,8 @@ Refusal Collapser::refusal_of(Cell& scratch, std::uint32_t point) {
 
 void Collapser::queue_all(Cell& cell) {
   for (std::uint32_t point = cell.begin; point < cell.end; ++point) {
+    if (surface_.points[point].flags & PointState::kDead) continue;
+    surface_.points[point].flags &= ~PointState::kBlocked;
     const float cost = find_candidate(cell, point);
     if (surface_.points[point].target != kNone)
       cell.queue.push(point, BucketQueue::bucket_of(cost));
@@ -102,11 +104,12 @@ void Collapser::drain(Cell& cell, std::uint32_t limit, bool confined) {
   cell.limit = limit;
   const Prefetcher prefetch{surface_};
   while (true) {
+    if (cell.removed_faces.size() >= cell.most_faces) return;
     const std::uint32_t point = cell.queue.pop(limit, prefetch);
     if (point == kNone) return;
     PointState& state = surface_.points[point];
     if (state.flags & (PointState::kDead | PointState::kBlocked)) continue;
-    if (confined && leaves_cell(cell, point)) {
+    if (confined && ((guard && guard->watches(point)) || leaves_cell(cell, point))) {
       cell.deferred.push_back(point);
       continue;
     }
@@ -163,7 +166,10 @@ void Collapser::try_others(Cell& cell, std::uint32_t point) {
 
 Refusal Collapser::test(Cell& cell, std::uint32_t from, std::uint32_t onto) {
   const Refusal refusal = test_collapse(surface_, from, onto, options_.legality);
-  if (refusal != Refusal::kLegal || (!attributes_ && !surface_.wedge.has_seams())) return refusal;
+  if (refusal != Refusal::kLegal) return refusal;
+  if (guard && (guard->watches(from) || guard->watches(onto)) && !guard->allows(from, onto))
+    return Refusal::kTopology;
+  if (!attributes_ && !surface_.wedge.has_seams()) return refusal;
   RingMerger merger(surface_, cell.scratch);
   return merger.match_wedges(attributes_, from, onto) ? Refusal::kLegal : Refusal::kSeam;
 }
@@ -179,6 +185,7 @@ void Collapser::collapse(Cell& cell, std::uint32_t from, std::uint32_t onto) {
     for (std::size_t i = 0; i < cell.scratch.moved_from.size(); ++i)
       attributes_->merge(cell.scratch.moved_from[i], cell.scratch.moved_onto[i], d);
   state.flags |= PointState::kDead;
+  if (guard && guard->watches(from)) guard->collapsed(from, onto);
   target.error = std::max(target.error, state.error + state.step);
   for (const RingEntry& entry : cell.scratch.ring) touch(cell, entry.neighbor);
 

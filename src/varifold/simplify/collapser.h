@@ -29,6 +29,7 @@ struct Cell {
   std::vector<std::uint32_t> removed_faces;
   std::vector<std::uint32_t> deferred;
   std::uint32_t limit = 0;  ///< the bucket at which the present round ends
+  std::size_t most_faces = static_cast<std::size_t>(-1);  ///< to remove in the present round
 
   MergeScratch scratch;
   RingOffsets offsets;
@@ -38,6 +39,18 @@ struct Cell {
 struct CollapserOptions {
   LegalityOptions legality;
   QuadricOptions quadric;
+};
+
+/// What else a collapse has to pass, for those who divide the surface into regions.
+class CollapseGuard {
+ public:
+  virtual ~CollapseGuard() = default;
+  /// Whether the guard wants to know of collapses of this point: those are done by one thread.
+  [[nodiscard]] virtual bool watches(std::uint32_t point) const = 0;
+  /// Asked for a legal collapse of a watched point, or onto one.
+  [[nodiscard]] virtual bool allows(std::uint32_t from, std::uint32_t onto) = 0;
+  /// A watched point has collapsed.
+  virtual void collapsed(std::uint32_t from, std::uint32_t onto) = 0;
 };
 
 class Collapser {
@@ -65,6 +78,7 @@ class Collapser {
   /// Where `queue` of the cells other than the drained one receive points that become free again:
   /// the serial pass sets this; null means the drained cell itself.
   std::vector<Cell>* home_cells = nullptr;
+  CollapseGuard* guard = nullptr;
   std::uint32_t points_per_home = 1;  ///< all but the last of those have as many
 
  private:

@@ -3,6 +3,7 @@
 #include <varifold/simplify/classify.h>
 #include <varifold/simplify/packed_normal.h>
 #include <algorithm>
+#include <cmath>
 
 namespace varifold {
 
@@ -121,6 +122,15 @@ bool opposes_input(const WorkingSurface& surface, const Vec3& normal, std::uint3
   return true;
 }
 
+// Whether a face would be more than the greatest turn away from the normal it was given.
+bool turns_from_reference(const WorkingSurface& surface, std::uint32_t face, const Vec3& normal,
+                          const LegalityOptions& options) {
+  if (surface.reference_normal.empty()) return false;
+  const Vec3 reference = unpack_normal(surface.reference_normal[face]);
+  const float length = std::sqrt(glm::dot(normal, normal) * glm::dot(reference, reference));
+  return length > 0 && glm::dot(normal, reference) < options.min_normal_cosine * length;
+}
+
 }  // namespace
 
 // The faces that stay must neither turn too far nor become needles.
@@ -153,6 +163,7 @@ Refusal test_faces(WorkingSurface& surface, const ApexMove& move, const Legality
     if (!(glm::dot(new_normal, input_normal) > 0) && input_normal != Vec3(0) &&
         opposes_input(surface, new_normal, m, n))
       return Refusal::kNormal;
+    if (turns_from_reference(surface, ring[i].face, new_normal, options)) return Refusal::kNormal;
     if (new_square == 0 && old_square == 0) continue;  // it had no area and has none
     const float longest = longest_squared(pm - new_apex, pn - new_apex, edge);
     const float shape = new_square / (longest * longest);

@@ -73,7 +73,9 @@ struct Builder {
   void make_points();
   void make_faces();
   void fill_rings();
-  void order_rings(std::uint32_t begin, std::uint32_t end);
+  void make_room();
+  void add_to_rings(std::uint32_t face);
+  void order_rings(std::uint32_t begin, std::uint32_t end, bool with_normals);
   void set_normal(std::uint32_t point);
   void order_one(std::uint32_t point, std::vector<LinkEdge>& edges, std::vector<RingEntry>& ring);
   static void drop_duplicates(std::vector<LinkEdge>& edges);
@@ -142,23 +144,29 @@ void Builder::fill_rings() {
   const std::uint32_t count = surface.point_count();
   surface.lines.resize(count);
   surface.pools.resize(std::clamp(count / std::max(1u, options.points_per_cell), 1u, kMaxCells));
-  for (std::uint32_t p = 0; p < count; ++p) {
+  make_room();
+  for (std::uint32_t face = 0; face < mesh.triangle_count(); ++face)
+    if (!is_degenerate(face)) add_to_rings(face);
+}
+
+void Builder::make_room() {
+  for (std::uint32_t p = 0; p < surface.point_count(); ++p) {
     if (degree[p] > kMaxRing) degree[p] = 0;  // no ring: nothing around it can be changed
     if (degree[p] <= RingLine::kCapacity) continue;
     const std::uint32_t pool = surface.pool_of(p);
     surface.lines[p].entries[0] = {surface.pools[pool].allocate(degree[p]), pool};
   }
-  for (std::uint32_t face = 0; face < mesh.triangle_count(); ++face) {
-    if (is_degenerate(face)) continue;
-    const std::uint32_t* p = &face_points[3 * std::size_t{face}];
-    for (int k = 0; k < 3; ++k) {
-      const std::uint32_t point = p[k];
-      if (degree[point] == 0) continue;
-      RingEntry* entries = surface.lines[point].entries;
-      if (degree[point] > RingLine::kCapacity)
-        entries = surface.pools[entries[0].face].at(entries[0].neighbor);
-      entries[surface.points[point].ring_size++] = {p[k == 2 ? 0 : k + 1], face};
-    }
+}
+
+void Builder::add_to_rings(std::uint32_t face) {
+  const std::uint32_t* p = &face_points[3 * std::size_t{face}];
+  for (int k = 0; k < 3; ++k) {
+    const std::uint32_t point = p[k];
+    if (degree[point] == 0) continue;
+    RingEntry* entries = surface.lines[point].entries;
+    if (degree[point] > RingLine::kCapacity)
+      entries = surface.pools[entries[0].face].at(entries[0].neighbor);
+    entries[surface.points[point].ring_size++] = {p[k == 2 ? 0 : k + 1], face};
   }
 }
 
@@ -224,12 +232,12 @@ void Builder::order_one(std::uint32_t point, std::vector<LinkEdge>& edges,
   surface.set_ring(point, ring);
 }
 
-void Builder::order_rings(std::uint32_t begin, std::uint32_t end) {
+void Builder::order_rings(std::uint32_t begin, std::uint32_t end, bool with_normals) {
   std::vector<LinkEdge> edges;
   std::vector<RingEntry> ring;
   for (std::uint32_t p = begin; p < end; ++p) {
     order_one(p, edges, ring);
-    set_normal(p);
+    if (with_normals) set_normal(p);
   }
 }
 
@@ -249,6 +257,29 @@ void Builder::set_normal(std::uint32_t point) {
 
 }  // namespace
 
+void rebuild_rings(WorkingSurface& surface, std::span<const std::uint32_t> faces,
+                   std::span<const std::uint32_t> corners) {
+  const TriangleMesh no_mesh;
+  const SurfaceOptions options;
+  Builder builder{no_mesh, options, {}, {}, {}, {}};
+  builder.surface = std::move(surface);
+  builder.face_points.assign(3 * builder.surface.is_face.size(), 0);
+  builder.degree.assign(builder.surface.point_count(), 0);
+  for (RingPool& pool : builder.surface.pools) pool = RingPool();
+  for (PointState& point : builder.surface.points) point.ring_size = 0;
+  for (PointState& point : builder.surface.points) point.flags |= PointState::kDead;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    builder.surface.points[corners[i]].flags = 0;
+    builder.face_points[3 * std::size_t{faces[i / 3]} + i % 3] = corners[i];
+    ++builder.degree[corners[i]];
+  }
+  builder.make_room();
+  for (const std::uint32_t face : faces) builder.add_to_rings(face);
+  builder.order_rings(0, builder.surface.point_count(), false);
+  builder.surface.face_count = static_cast<std::uint32_t>(faces.size());
+  surface = std::move(builder.surface);
+}
+
 WorkingSurface build_surface(const TriangleMesh& mesh, const SurfaceOptions& options,
                              InputFaults& faults) {
   Builder builder{mesh, options, {}, {}, {}, {}};
@@ -259,7 +290,7 @@ WorkingSurface build_surface(const TriangleMesh& mesh, const SurfaceOptions& opt
   parallel_for(options.threads, count, builder.surface.points_per_pool(),
                [&](std::size_t begin, std::size_t end) {
                  builder.order_rings(static_cast<std::uint32_t>(begin),
-                                     static_cast<std::uint32_t>(end));
+                                     static_cast<std::uint32_t>(end), true);
                });
   if (builder.any_dropped) builder.count_faces();
   if (options.with_wedges) builder.surface.wedge = make_wedges(mesh, builder.surface);

@@ -58,7 +58,13 @@ class WorkingSurface {
   std::vector<std::uint32_t> point_of_vertex;        ///< kNone for unused vertices
   std::vector<std::uint32_t> first_vertex_of_point;  ///< the first vertex of the input there
   std::vector<bool> is_face;                         ///< per triangle of the input
-  std::uint32_t face_count = 0;                      ///< live faces
+  /// Per triangle of the input; empty where the surface is not divided. Edges between faces of
+  /// different regions are features.
+  std::vector<std::uint32_t> region_of;
+  /// Per triangle of the input, packed; empty where nothing is asked. Faces must not turn away from
+  /// them by more than LegalityOptions allow.
+  std::vector<std::uint32_t> reference_normal;
+  std::uint32_t face_count = 0;  ///< live faces
   DVec3 center{0};
   double scale = 1;  ///< points are (position - center) * scale
 
@@ -103,5 +109,10 @@ struct InputFaults {
 /// classes, and exact repetitions, get no face. O(n log n) for the Morton sort, else linear.
 [[nodiscard]] WorkingSurface build_surface(const TriangleMesh& mesh, const SurfaceOptions& options,
                                            InputFaults& faults);
+
+/// Puts the surface back to other faces: `faces` are numbers of triangles, `corners` three points
+/// for each. Points that they use live again; wedges are left as they are. O(points + faces).
+void rebuild_rings(WorkingSurface& surface, std::span<const std::uint32_t> faces,
+                   std::span<const std::uint32_t> corners);
 
 }  // namespace varifold

@@ -1,0 +1,361 @@
+#include <varifold/models/patch_tree/border_guard.h>
+
+#include <varifold/models/patch_tree/patch_tree.h>
+#include <varifold/simplify/classify.h>
+#include <algorithm>
+
+namespace varifold {
+
+namespace {
+
+// The cosine of the greatest turn of a triangle by a switch: that of any collapse.
+constexpr float kMinCosine = 0.2588f;
+
+std::pair<std::uint32_t, std::uint32_t> sorted_pair(std::uint32_t a, std::uint32_t b) {
+  return a < b ? std::pair(a, b) : std::pair(b, a);
+}
+
+template <class T>
+void sort_unique(std::vector<T>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+}  // namespace
+
+void BorderGuard::begin_level(const BorderLocks& locks) {
+  border_of_.assign(surface_.point_count(), kNone);
+  points_.clear();
+  star_.clear();
+  forbidden_ = locks.edges;
+  for (std::uint32_t p = 0; p < surface_.point_count(); ++p) {
+    const PointState& state = surface_.points[p];
+    if (!(state.flags & PointState::kDead) && state.kind != VertexKind::kManifold) add_point(p);
+  }
+  limit_controllers();
+  for (const std::uint32_t p : locks.points) surface_.points[p].kind = VertexKind::kCorner;
+}
+
+// Remembers the faces around a point where regions meet.
+void BorderGuard::add_point(std::uint32_t point) {
+  const auto ring = surface_.ring_span(point);
+  const auto first = static_cast<std::uint32_t>(star_.size());
+  std::uint32_t regions[2] = {kNone, kNone};
+  bool more = false;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    if (ring[i].face == kNone) continue;
+    const std::uint32_t region = surface_.region_of[ring[i].face];
+    const std::uint32_t next = ring[i + 1 == ring.size() ? 0 : i + 1].neighbor;
+    star_.push_back({ring[i].neighbor, next, region});
+    if (regions[0] == kNone || regions[0] == region)
+      regions[0] = region;
+    else if (regions[1] == kNone || regions[1] == region)
+      regions[1] = region;
+    else
+      more = true;
+  }
+  if (regions[1] == kNone) return star_.resize(first);
+  if (more) regions[0] = regions[1] = kNone;
+  const auto number = static_cast<std::uint32_t>(points_.size());
+  border_of_[point] = number;
+  points_.push_back({point,
+                     first,
+                     static_cast<std::uint32_t>(star_.size()),
+                     {regions[0], regions[1]},
+                     number,
+                     kNone,
+                     number});
+}
+
+// A region with more neighbours than there are bits leaves its borders with the last of them alone.
+void BorderGuard::limit_controllers() {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+  for (const BorderPoint& p : points_) {
+    if (p.regions[0] == kNone || surface_.points[p.point].kind == VertexKind::kCorner) continue;
+    pairs.emplace_back(p.regions[0], p.regions[1]);
+    pairs.emplace_back(p.regions[1], p.regions[0]);
+  }
+  sort_unique(pairs);
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> too_many;
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (pairs[i].first != pairs[first].first) first = i;
+    if (i - first >= kMaxControllers)
+      too_many.push_back(sorted_pair(pairs[i].first, pairs[i].second));
+  }
+  if (too_many.empty()) return;
+  sort_unique(too_many);
+  for (const BorderPoint& p : points_)
+    if (p.regions[0] != kNone && std::binary_search(too_many.begin(), too_many.end(),
+                                                    sorted_pair(p.regions[0], p.regions[1])))
+      surface_.points[p.point].kind = VertexKind::kCorner;
+}
+
+void BorderGuard::lock_all() {
+  for (const BorderPoint& p : points_) surface_.points[p.point].kind = VertexKind::kCorner;
+}
+
+void BorderGuard::join(std::uint32_t from, std::uint32_t onto) {
+  for (std::uint32_t i = from; i != kNone; i = points_[i].next) points_[i].target = onto;
+  points_[points_[onto].last].next = from;
+  points_[onto].last = points_[from].last;
+}
+
+void BorderGuard::part(std::uint32_t from, std::uint32_t onto, std::uint32_t last_of_onto) {
+  points_[onto].last = last_of_onto;
+  points_[last_of_onto].next = kNone;
+  for (std::uint32_t i = from; i != kNone; i = points_[i].next) points_[i].target = from;
+}
+
+bool BorderGuard::may_join(std::uint32_t from, std::uint32_t onto) {
+  if (forbidden_.empty()) return true;
+  for (const RingEntry& entry : surface_.ring_span(from))
+    if (std::binary_search(forbidden_.begin(), forbidden_.end(), sorted_pair(entry.neighbor, onto)))
+      return false;
+  return true;
+}
+
+bool BorderGuard::allows(std::uint32_t from, std::uint32_t onto) {
+  if (!may_join(from, onto)) return false;
+  const std::uint32_t b = border_of_[from];
+  if (b == kNone) return true;
+  const std::uint32_t target = border_of_[onto];
+  const std::uint32_t regions[2] = {points_[b].regions[0], points_[b].regions[1]};
+  if (target == kNone || regions[0] == kNone) return false;
+  const std::uint32_t last = points_[target].last;
+  join(b, target);
+  const bool sound = is_sound(target, regions[0]) && is_sound(target, regions[1]);
+  part(b, target, last);
+  return sound;
+}
+
+void BorderGuard::collapsed(std::uint32_t from, std::uint32_t onto) {
+  join(border_of_[from], border_of_[onto]);
+}
+
+std::uint32_t BorderGuard::image(std::uint32_t point, std::uint32_t region,
+                                 const Mixture& mixture) const {
+  const std::uint32_t border = border_of_[point];
+  if (border == kNone) return point;
+  const BorderPoint& p = points_[border];
+  if (p.target == border || !mixture.has(p.other_than(region))) return point;
+  return points_[p.target].point;
+}
+
+// The neighbours that can move a corner of the faces that can come to lie around the target. False
+// where they are too many.
+bool BorderGuard::gather_controllers(std::uint32_t target, std::uint32_t region,
+                                     Mixture& mixture) const {
+  const auto add = [&](std::uint32_t point) {
+    const std::uint32_t c = controller(point, region);
+    if (c == kNone) return true;
+    for (std::size_t i = 0; i < mixture.count; ++i)
+      if (mixture.controllers[i] == c) return true;
+    if (mixture.count == Mixture::kMax) return false;
+    mixture.controllers[mixture.count++] = c;
+    return true;
+  };
+  for (std::uint32_t i = target; i != kNone; i = points_[i].next)
+    for (const StarFace& face : star(points_[i]))
+      if (face.region == region && !(add(points_[i].point) && add(face.from) && add(face.to)))
+        return false;
+  return true;
+}
+
+bool BorderGuard::is_sound(std::uint32_t target, std::uint32_t region) {
+  Mixture mixture;
+  const int fans = count_fans(target, region, mixture);
+  if (fans < 0 || !gather_controllers(target, region, mixture)) return false;
+  for (mixture.coarse = 1; mixture.coarse < 1u << mixture.count; ++mixture.coarse)
+    if (count_fans(target, region, mixture) != fans || !keeps_normals(target, region, mixture))
+      return false;
+  return true;
+}
+
+// How many fans the faces of a region form around the target; -1 where they form something else.
+int BorderGuard::count_fans(std::uint32_t target, std::uint32_t region, const Mixture& mixture) {
+  const std::uint32_t apex = points_[target].point;
+  link_.clear();
+  for (std::uint32_t i = target; i != kNone; i = points_[i].next) {
+    if (image(points_[i].point, region, mixture) != apex) continue;
+    for (const StarFace& face : star(points_[i])) {
+      if (face.region != region) continue;
+      const std::uint32_t from = image(face.from, region, mixture);
+      const std::uint32_t to = image(face.to, region, mixture);
+      if (from != apex && to != apex && from != to) link_.emplace_back(from, to);
+    }
+  }
+  return count_paths();
+}
+
+// The number of paths that the directed edges of a link form; -1 where an end repeats or a path
+// closes beside others.
+int BorderGuard::count_paths() {
+  const std::size_t size = link_.size();
+  for (std::size_t i = 0; i < size; ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (link_[j].first == link_[i].first || link_[j].second == link_[i].second) return -1;
+  const auto leaving = [&](std::uint32_t end) {
+    return std::find_if(link_.begin(), link_.end(),
+                        [&](const auto& edge) { return edge.first == end; });
+  };
+  int paths = 0;
+  std::size_t walked = 0;
+  for (const auto& [start, next] : link_) {
+    const bool is_start = std::none_of(link_.begin(), link_.end(),
+                                       [&](const auto& edge) { return edge.second == start; });
+    if (!is_start) continue;
+    ++paths;
+    for (auto edge = leaving(start); edge != link_.end(); edge = leaving(edge->second)) ++walked;
+  }
+  return walked == size ? paths : -1;
+}
+
+bool BorderGuard::keeps_normals(std::uint32_t target, std::uint32_t region,
+                                const Mixture& mixture) const {
+  for (std::uint32_t i = target; i != kNone; i = points_[i].next) {
+    const std::uint32_t apex = points_[i].point;
+    const std::uint32_t new_apex = image(apex, region, mixture);
+    for (const StarFace& face : star(points_[i])) {
+      if (face.region != region) continue;
+      const std::uint32_t from = image(face.from, region, mixture);
+      const std::uint32_t to = image(face.to, region, mixture);
+      if (from == to || from == new_apex || to == new_apex) continue;
+      if (from == face.from && to == face.to && new_apex == apex) continue;
+      const Vec3 before =
+          glm::cross(position(face.from) - position(apex), position(face.to) - position(apex));
+      const Vec3 after =
+          glm::cross(position(from) - position(new_apex), position(to) - position(new_apex));
+      const float square = glm::dot(before, before);
+      const float cosine = glm::dot(before, after);
+      if (square == 0) continue;
+      if (cosine <= 0 ||
+          (cosine / square) * (cosine / glm::dot(after, after)) < kMinCosine * kMinCosine)
+        return false;
+    }
+  }
+  return true;
+}
+
+bool BorderGuard::verify(BorderLocks& locks) {
+  bool sound = true;
+  chords_.clear();
+  std::vector<std::uint32_t> regions;
+  for (std::uint32_t b = 0; b < points_.size(); ++b) {
+    find_chords(b);
+    if (points_[b].target != b) continue;
+    find_new_chords(b);
+    if (points_[b].next == kNone) continue;  // nothing came here
+    regions.clear();
+    for (const StarFace& face : star(points_[b])) regions.push_back(face.region);
+    sort_unique(regions);
+    for (const std::uint32_t region : regions)
+      if (!is_sound(b, region)) {
+        sound = false;
+        lock_around(b, locks);
+      }
+  }
+  sound &= !lock_chords(locks);
+  sort_unique(locks.points);
+  sort_unique(locks.edges);
+  return sound;
+}
+
+void BorderGuard::lock_around(std::uint32_t target, BorderLocks& locks) const {
+  const auto lock = [&](std::uint32_t point) {
+    const std::uint32_t b = border_of_[point];
+    if (b != kNone && points_[b].target != b) locks.points.push_back(point);
+  };
+  for (std::uint32_t i = target; i != kNone; i = points_[i].next) {
+    lock(points_[i].point);
+    for (const StarFace& face : star(points_[i])) lock(face.from), lock(face.to);
+  }
+}
+
+// An edge of K between two points of borders, as it may be drawn: inside a region, or on a border.
+void BorderGuard::find_chords(std::uint32_t border) {
+  const BorderPoint& p = points_[border];
+  for (const StarFace& out : star(p)) {
+    const std::uint32_t other = border_of_[out.from];
+    if (other == kNone) continue;
+    std::uint32_t beyond = kNone;
+    for (const StarFace& in : star(p))
+      if (in.to == out.from) beyond = in.region;
+    if (beyond == out.region && out.from < p.point) continue;  // seen from the other end
+    const std::uint32_t ends[2] = {border, other};
+    for (std::uint32_t moved = 0; moved < 4; ++moved) {
+      Chord chord{0, {{out.region, false}, {}, {}}, beyond, border, other};
+      std::uint32_t shown[2];
+      bool possible = true;
+      for (std::uint32_t k = 0; k < 2; ++k) {
+        const BorderPoint& end = points_[ends[k]];
+        const bool moves = (moved >> k & 1) != 0;
+        shown[k] = moves ? points_[end.target].point : end.point;
+        if (end.target != ends[k])
+          chord.needs[1 + k] = {end.other_than(out.region), moves};
+        else
+          possible &= !moves;
+      }
+      if (!possible || shown[0] == shown[1]) continue;
+      const auto [low, high] = sorted_pair(shown[0], shown[1]);
+      chord.edge = std::uint64_t{low} << 32 | high;
+      chords_.push_back(chord);
+    }
+  }
+}
+
+void BorderGuard::find_new_chords(std::uint32_t border) {
+  const std::uint32_t point = points_[border].point;
+  const auto ring = surface_.ring_span(point);
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const RingEntry& before = ring[i == 0 ? ring.size() - 1 : i - 1];
+    const std::uint32_t neighbor = ring[i].neighbor;
+    if (neighbor < point || border_of_[neighbor] == kNone) continue;
+    if (ring[i].face == kNone || before.face == kNone) continue;
+    const std::uint32_t region = surface_.region_of[ring[i].face];
+    if (region != surface_.region_of[before.face]) continue;
+    chords_.push_back({std::uint64_t{point} << 32 | neighbor,
+                       {{region, true}, {}, {}},
+                       region,
+                       border,
+                       border_of_[neighbor]});
+  }
+}
+
+// Whether two regions may show the same edge at one time, not as their common border.
+bool BorderGuard::clash(const Chord& x, const Chord& y) {
+  if (x.needs[0].region == y.needs[0].region) return false;  // fans tell
+  if (x.is_border() && y.is_border()) return false;
+  if (x.is_border() && x.beyond == y.needs[0].region) return false;
+  if (y.is_border() && y.beyond == x.needs[0].region) return false;
+  for (const Need& a : x.needs)
+    for (const Need& b : y.needs)
+      if (a.region != kNone && a.region == b.region && a.coarse != b.coarse) return false;
+  return true;
+}
+
+bool BorderGuard::lock_chords(BorderLocks& locks) {
+  bool any = false;
+  std::sort(chords_.begin(), chords_.end());
+  const auto lock = [&](const Chord& chord) {
+    if (chord.needs[0].coarse)
+      locks.edges.emplace_back(static_cast<std::uint32_t>(chord.edge >> 32),
+                               static_cast<std::uint32_t>(chord.edge));
+    for (const std::uint32_t b : {chord.a, chord.b})
+      if (points_[b].target != b) locks.points.push_back(points_[b].point);
+  };
+  for (std::size_t first = 0, last; first < chords_.size(); first = last) {
+    last = first + 1;
+    while (last < chords_.size() && chords_[last].edge == chords_[first].edge) ++last;
+    for (std::size_t i = first; i < last; ++i)
+      for (std::size_t j = first; j < i; ++j)
+        if (clash(chords_[i], chords_[j])) {
+          any = true;
+          lock(chords_[i]);
+          lock(chords_[j]);
+        }
+  }
+  return any;
+}
+
+}  // namespace varifold

@@ -1,0 +1,119 @@
+#include <varifold/models/patch_tree/level_halving.h>
+
+#include <varifold/base/parallel.h>
+#include <varifold/simplify/classify.h>
+#include <varifold/simplify/collapse_rounds.h>
+#include <varifold/simplify/packed_normal.h>
+#include <numeric>
+
+namespace varifold {
+
+namespace {
+
+// Against needles: 2 * area / longest edge^2.
+constexpr float kMinShape = 0.01f;
+// Beyond so many runs all borders of the level stay as they are.
+constexpr std::uint32_t kMaxReruns = 16;
+
+}  // namespace
+
+LevelHalving::LevelHalving(WorkingSurface& surface, AttributeField& attributes,
+                           const HalvingOptions& options)
+    : surface_(surface), attributes_(attributes), options_(options), guard_(surface) {
+  const std::size_t wedges =
+      surface.wedge.has_seams() ? surface.wedge.vertex_of.size() : surface.point_count();
+  survivor_.resize(wedges);
+  std::iota(survivor_.begin(), survivor_.end(), 0u);
+}
+
+void LevelHalving::set_references(const LevelMesh& mesh) {
+  surface_.reference_normal.resize(surface_.is_face.size());
+  parallel_for(options_.threads, mesh.face_count(), 16384, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto at = [&](std::size_t k) {
+        return surface_.points[point_of(mesh.corners[3 * i + k])].position;
+      };
+      surface_.reference_normal[mesh.faces[i]] =
+          pack_normal(glm::cross(at(1) - at(0), at(2) - at(0)));
+    }
+  });
+}
+
+HalvingReport LevelHalving::halve(LevelMesh& mesh, std::uint32_t target_faces) {
+  HalvingReport report;
+  BorderLocks locks;
+  set_references(mesh);
+  CollapserOptions options;
+  options.legality.min_shape = kMinShape;
+  Collapser collapser(surface_, &attributes_, options);
+  collapser.guard = &guard_;
+  RoundOptions rounds;
+  rounds.target_faces = target_faces;
+  rounds.exact = true;
+  rounds.threads = options_.threads;
+  rounds.progress = options_.progress;
+  while (true) {
+    classify_points(surface_, options_.threads);
+    guard_.begin_level(locks);
+    if (report.reruns == kMaxReruns) guard_.lock_all();
+    const CollapseLog log = run_rounds(surface_, collapser, rounds);
+    report.cancelled = log.cancelled;
+    const BorderLocks before = locks;
+    report.is_sound = !log.cancelled && guard_.verify(locks);
+    if (report.is_sound || log.cancelled || report.reruns == kMaxReruns) {
+      find_survivors(log.entries);
+      break;
+    }
+    report.reruns = locks == before ? kMaxReruns : report.reruns + 1;
+    restore(mesh, log.entries);
+  }
+  report.locked_points = static_cast<std::uint32_t>(locks.points.size());
+  shrink(mesh);
+  return report;
+}
+
+void LevelHalving::restore(const LevelMesh& mesh, std::span<const CollapseLogEntry> log) {
+  WedgeTables& wedge = surface_.wedge;
+  std::vector<std::uint32_t> points(mesh.corners.size());
+  for (std::size_t i = 0; i < points.size(); ++i) points[i] = point_of(mesh.corners[i]);
+  rebuild_rings(surface_, mesh.faces, points);
+  if (!wedge.has_seams()) return;
+  for (std::size_t i = 0; i < mesh.corners.size(); ++i)
+    wedge.corners[3 * std::size_t{mesh.faces[i / 3]} + i % 3] = mesh.corners[i];
+  for (const CollapseLogEntry& entry : log)
+    for (std::uint32_t w = wedge.first[entry.from]; w < wedge.first[entry.from + 1]; ++w)
+      wedge.target[w] = kNone;
+}
+
+// From the last collapse back, so that the target's own survivor is known.
+void LevelHalving::find_survivors(std::span<const CollapseLogEntry> log) {
+  std::iota(survivor_.begin(), survivor_.end(), 0u);
+  for (std::size_t i = log.size(); i-- > 0;) {
+    if (!surface_.wedge.has_seams()) {
+      survivor_[log[i].from] = survivor_[log[i].onto];
+      continue;
+    }
+    const WedgeTables& wedge = surface_.wedge;
+    for (std::uint32_t w = wedge.first[log[i].from]; w < wedge.first[log[i].from + 1]; ++w)
+      survivor_[w] = survivor_[wedge.target[w]];
+  }
+}
+
+void LevelHalving::shrink(LevelMesh& mesh) const {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
+    std::uint32_t w[3], p[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+      w[k] = survivor_[mesh.corners[3 * i + k]];
+      p[k] = point_of(w[k]);
+    }
+    if (p[0] == p[1] || p[1] == p[2] || p[2] == p[0]) continue;
+    mesh.faces[kept] = mesh.faces[i];
+    for (std::size_t k = 0; k < 3; ++k) mesh.corners[3 * kept + k] = w[k];
+    ++kept;
+  }
+  mesh.faces.resize(kept);
+  mesh.corners.resize(3 * kept);
+}
+
+}  // namespace varifold

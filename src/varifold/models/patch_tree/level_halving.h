@@ -1,0 +1,71 @@
+// One level of a patch tree: half of the triangles go, by collapses that leave the borders of the
+// coarser patches in shape.
+//
+// Based on: [Birkholz2007] section 3, "LOD Creation"; [GarlandHeckbert1997]; [Kobbelt1998].
+// Differs: the borders that count are those of the patches to come; corners of these stay; what a
+//   collapse on a border does to mixed fronts is tested before it is done (border_guard.h).
+#pragma once
+
+#include <varifold/base/progress.h>
+#include <varifold/models/patch_tree/border_guard.h>
+#include <varifold/simplify/attribute_field.h>
+#include <varifold/simplify/working_surface.h>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace varifold {
+
+/// The triangles of a level in the order of its patches.
+struct LevelMesh {
+  std::vector<std::uint32_t> faces;    ///< numbers of triangles of the input
+  std::vector<std::uint32_t> corners;  ///< three wedges for each
+  [[nodiscard]] std::uint32_t face_count() const {
+    return static_cast<std::uint32_t>(faces.size());
+  }
+};
+
+struct HalvingOptions {
+  int threads = 0;  ///< 0 = all; the result does not depend on it
+  Progress progress;
+};
+
+struct HalvingReport {
+  std::uint32_t reruns = 0;         ///< because a mixture was found to be unsound
+  std::uint32_t locked_points = 0;  ///< for that reason
+  bool is_sound = false;            ///< of all mixtures with the level before
+  bool cancelled = false;
+};
+
+/// Halves one level after the other on one surface.
+class LevelHalving {
+ public:
+  /// `attributes` may be empty. Both outlive this.
+  LevelHalving(WorkingSurface& surface, AttributeField& attributes, const HalvingOptions& options);
+
+  /// Halves `mesh`, which is what the surface shows: the number of its triangles becomes
+  /// `target_faces` or as near above as the rules allow. surface.region_of tells for each face the
+  /// patch to come. Afterwards survivor() and guard() speak of this level. O(points).
+  HalvingReport halve(LevelMesh& mesh, std::uint32_t target_faces);
+
+  /// Where a wedge of the level before went; itself if it stayed.
+  [[nodiscard]] std::uint32_t survivor(std::uint32_t wedge) const { return survivor_[wedge]; }
+  [[nodiscard]] const BorderGuard& guard() const { return guard_; }
+
+ private:
+  void set_references(const LevelMesh& mesh);
+  void restore(const LevelMesh& mesh, std::span<const CollapseLogEntry> log);
+  void find_survivors(std::span<const CollapseLogEntry> log);
+  void shrink(LevelMesh& mesh) const;
+  [[nodiscard]] std::uint32_t point_of(std::uint32_t wedge) const {
+    return surface_.wedge.has_seams() ? surface_.wedge.point_of[wedge] : wedge;
+  }
+
+  WorkingSurface& surface_;
+  AttributeField& attributes_;
+  HalvingOptions options_;
+  BorderGuard guard_;
+  std::vector<std::uint32_t> survivor_;
+};
+
+}  // namespace varifold
