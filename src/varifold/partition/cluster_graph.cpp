@@ -1,0 +1,190 @@
+#include <varifold/partition/cluster_graph.h>
+
+#include <varifold/base/parallel.h>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace varifold {
+
+namespace {
+
+constexpr std::size_t kGrain = 8192;
+
+struct Builder {
+  const SurfaceView& surface;
+  const EdgeLinks& edges;
+  const ClusterMap& map;
+  bool across_materials;
+  float scale;  // of half lengths, to those of a surface of extent 1
+
+  // The cluster across a half-edge, or kNone.
+  [[nodiscard]] std::uint32_t beyond(std::uint32_t half_edge) const {
+    const std::uint32_t g =
+        across_materials ? edges.across(half_edge) : edges.across_in_material(half_edge);
+    return g == kNone ? kNone : map.cluster_of[g / 3];
+  }
+  [[nodiscard]] float length(std::uint32_t half_edge) const {
+    return glm::length(
+        side(surface.corners[half_edge], surface.corners[next_in_triangle(half_edge)]));
+  }
+  [[nodiscard]] float area(std::uint32_t triangle) const {
+    const std::uint32_t* c = surface.corners.data() + 3 * std::size_t{triangle};
+    return 0.5f * glm::length(glm::cross(side(c[0], c[1]), side(c[0], c[2])));
+  }
+  [[nodiscard]] Vec3 side(std::uint32_t from, std::uint32_t to) const {
+    return (0.5f * surface.positions[to] - 0.5f * surface.positions[from]) * scale;
+  }
+  void describe(ClusterGraph& graph, std::uint32_t cluster,
+                std::span<const std::uint32_t> triangles, std::vector<std::uint32_t>& ends) const;
+};
+
+// Lengths are halved first: no extent of finite points is too large then.
+float half_length_scale(const SurfaceView& surface) {
+  Box box;
+  for (const Vec3& p : surface.positions) box.add(0.5f * p);
+  if (box.empty()) return 1;
+  const Vec3 extent = box.upper - box.lower;
+  const float scale = 1 / std::max({extent.x, extent.y, extent.z});
+  return std::isfinite(scale) ? scale : 1;
+}
+
+// Adds what a half-edge has in common with a neighbour to the row.
+void add_common_edge(ClusterLink* row, std::uint32_t& count, std::uint32_t other, float length) {
+  for (std::uint32_t i = count; i > 0; --i) {
+    if (row[i - 1].other != other) continue;
+    row[i - 1].length += length;
+    ++row[i - 1].edges;
+    return;
+  }
+  row[count++] = {other, length, 1};
+}
+
+void Builder::describe(ClusterGraph& graph, std::uint32_t cluster,
+                       std::span<const std::uint32_t> triangles,
+                       std::vector<std::uint32_t>& ends) const {
+  ClusterShape& shape = graph.shapes[cluster];
+  shape.triangles = static_cast<std::uint32_t>(triangles.size());
+  Row& link_row = graph.link_rows[cluster];
+  ends.clear();
+  for (const std::uint32_t t : triangles) {
+    shape.area += area(t);
+    for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
+      const std::uint32_t other = beyond(h);
+      if (other == cluster) continue;
+      const float edge = length(h);
+      shape.outline += edge;
+      ends.push_back(surface.corners[h]);
+      ends.push_back(surface.corners[next_in_triangle(h)]);
+      if (other == kNone) continue;
+      add_common_edge(graph.links.data() + link_row.begin, link_row.count, other, edge);
+    }
+  }
+  std::sort(ends.begin(), ends.end());
+  Row& point_row = graph.point_rows[cluster];
+  std::uint32_t* points = graph.points.data() + point_row.begin;
+  point_row.count =
+      static_cast<std::uint32_t>(std::unique_copy(ends.begin(), ends.end(), points) - points);
+}
+
+// Triangles by cluster.
+struct Members {
+  LargeVector<std::uint32_t> first, triangles;
+
+  Members(const ClusterMap& map) : first(std::size_t{map.count} + 1, 0) {
+    const auto n = static_cast<std::uint32_t>(map.cluster_of.size());
+    for (const std::uint32_t cluster : map.cluster_of)
+      if (cluster != kNone) ++first[cluster];
+    std::uint32_t total = 0;
+    for (std::uint32_t& f : first) f = total += f;
+    triangles.resize(total);
+    for (std::uint32_t t = n; t-- > 0;)
+      if (map.cluster_of[t] != kNone) triangles[--first[map.cluster_of[t]]] = t;
+  }
+  [[nodiscard]] std::span<const std::uint32_t> of(std::uint32_t cluster) const {
+    return {triangles.data() + first[cluster], first[cluster + 1] - first[cluster]};
+  }
+};
+
+}  // namespace
+
+ClusterGraph build_cluster_graph(const SurfaceView& surface, const EdgeLinks& links,
+                                 const ClusterMap& map, bool across_materials, int threads) {
+  const Builder builder{surface, links, map, across_materials, half_length_scale(surface)};
+  const Members members(map);
+  ClusterGraph graph;
+  graph.unit = 2 / builder.scale;
+  graph.shapes.resize(map.count);
+  graph.link_rows.resize(map.count);
+  graph.point_rows.resize(map.count);
+
+  // Reserve a place per half-edge on a border: no row of links or points is longer.
+  parallel_for(threads, map.count, kGrain, [&](std::size_t begin, std::size_t end) {
+    for (auto c = static_cast<std::uint32_t>(begin); c < end; ++c)
+      for (const std::uint32_t t : members.of(c))
+        for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h)
+          graph.point_rows[c].begin += builder.beyond(h) != c;
+  });
+  std::uint32_t total = 0;
+  for (std::uint32_t c = 0; c < map.count; ++c) {
+    const std::uint32_t places = graph.point_rows[c].begin;
+    graph.point_rows[c].begin = graph.link_rows[c].begin = total;
+    total += places;
+  }
+  graph.links.resize(total);
+  graph.points.resize(total);
+
+  parallel_for(threads, map.count, kGrain, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::uint32_t> ends;
+    for (auto c = static_cast<std::uint32_t>(begin); c < end; ++c)
+      builder.describe(graph, c, members.of(c), ends);
+  });
+  graph.clusters_at.assign(surface.positions.size(), 0);
+  for (std::uint32_t c = 0; c < map.count; ++c)
+    for (const std::uint32_t point : graph.points_of(c)) ++graph.clusters_at[point];
+  return graph;
+}
+
+std::vector<std::int32_t> euler_characteristics(const SurfaceView& surface, const EdgeLinks& links,
+                                                const ClusterMap& map) {
+  std::vector<std::int32_t> euler(map.count, 0);
+  LargeVector<std::uint32_t> owner(surface.positions.size(), kNone);
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> shared;  // cluster, point
+  const auto n = static_cast<std::uint32_t>(map.cluster_of.size());
+  for (std::uint32_t t = 0; t < n; ++t) {
+    const std::uint32_t cluster = map.cluster_of[t];
+    if (cluster == kNone) continue;
+    ++euler[cluster];
+    for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
+      // An edge counts at the lower of its half-edges that are in the cluster.
+      const std::uint32_t g = links.across(h);
+      euler[cluster] -= g == kNone || g > h || map.cluster_of[g / 3] != cluster;
+      // A point counts where it is met first; in other clusters it is noted.
+      std::uint32_t& first = owner[surface.corners[h]];
+      if (first == kNone) {
+        first = cluster;
+        ++euler[cluster];
+      } else if (first != cluster) {
+        shared.emplace_back(cluster, surface.corners[h]);
+      }
+    }
+  }
+  std::sort(shared.begin(), shared.end());
+  shared.erase(std::unique(shared.begin(), shared.end()), shared.end());
+  for (const auto& [cluster, point] : shared) ++euler[cluster];
+
+  // Half-edges of an edge with many triangles were counted one by one.
+  std::vector<std::array<std::uint32_t, 3>> many;  // cluster, lower point, upper point
+  for (const std::uint32_t h : links.nonmanifold()) {
+    if (map.cluster_of[h / 3] == kNone) continue;
+    const std::uint32_t a = surface.corners[h], b = surface.corners[next_in_triangle(h)];
+    many.push_back({map.cluster_of[h / 3], std::min(a, b), std::max(a, b)});
+  }
+  std::sort(many.begin(), many.end());
+  for (std::size_t i = 1; i < many.size(); ++i)
+    if (many[i] == many[i - 1]) ++euler[many[i][0]];
+  return euler;
+}
+
+}  // namespace varifold

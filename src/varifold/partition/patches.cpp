@@ -1,0 +1,103 @@
+#include <varifold/partition/patches.h>
+
+#include <varifold/partition/cluster_graph.h>
+#include <varifold/partition/edge_links.h>
+#include <varifold/partition/merge_rounds.h>
+#include <varifold/partition/small_regions.h>
+#include <varifold/partition/triangle_groups.h>
+#include <algorithm>
+
+namespace varifold {
+
+namespace {
+
+std::uint32_t max_triangles(std::uint32_t triangles_per_patch) {
+  return static_cast<std::uint32_t>(
+      std::min(kMaxPatchExcess * static_cast<float>(triangles_per_patch), 1e9f));
+}
+
+// Single triangles and glued ones, but for those of small regions; numbered as they come.
+std::uint32_t first_clusters(const TriangleGroups& glued, const TriangleGroups& small,
+                             std::vector<std::uint32_t>& cluster_of) {
+  std::uint32_t count = 0;
+  std::vector<std::uint32_t> cluster_of_group(glued.count, kNone);
+  for (std::uint32_t t = 0; t < cluster_of.size(); ++t) {
+    cluster_of[t] = kNone;
+    if (small.of(t) != kNone) continue;
+    if (glued.of(t) == kNone) {
+      cluster_of[t] = count++;
+      continue;
+    }
+    std::uint32_t& cluster = cluster_of_group[glued.of(t)];
+    if (cluster == kNone) cluster = count++;
+    cluster_of[t] = cluster;
+  }
+  return count;
+}
+
+void merge_clusters(const SurfaceView& surface, const EdgeLinks& links, const ClusterMap& map,
+                    const PartitionOptions& options, Partition& partition) {
+  ClusterGraph graph = build_cluster_graph(surface, links, map, false, options.threads);
+  if (!links.nonmanifold().empty()) {
+    const std::vector<std::int32_t> euler = euler_characteristics(surface, links, map);
+    for (std::uint32_t c = 0; c < map.count; ++c) graph.shapes[c].euler = euler[c];
+  }
+  std::uint32_t triangles = 0;
+  for (const ClusterShape& shape : graph.shapes) triangles += shape.triangles;
+
+  // Discs first; where that leaves too many patches, any.
+  MergeRounds rounds(std::move(graph), options.threads);
+  MergeLimits limits;
+  limits.clusters = (triangles - 1) / options.triangles_per_patch + 1;
+  limits.max_triangles = max_triangles(options.triangles_per_patch);
+  rounds.run(limits);
+  limits.discs = false;
+  rounds.run(limits);
+  partition.patch_count = rounds.graph().size();
+  for (std::uint32_t& entry : partition.patch_of)
+    if (entry != kNone) entry = rounds.cluster_of()[entry];
+}
+
+void measure(const SurfaceView& surface, const EdgeLinks& links, Partition& partition) {
+  partition.border_edges = 0;
+  partition.border_length = 0;
+  for (std::uint32_t h = 0; h < surface.corners.size(); ++h) {
+    const std::uint32_t g = links.across(h);
+    if (g == kNone || g > h || partition.patch_of[g / 3] == partition.patch_of[h / 3]) continue;
+    ++partition.border_edges;
+    partition.border_length +=
+        glm::distance(surface.positions[surface.corners[h]],
+                      surface.positions[surface.corners[next_in_triangle(h)]]);
+  }
+}
+
+}  // namespace
+
+Partition make_patches(const SurfaceView& surface, const PartitionOptions& options) {
+  Partition partition;
+  partition.patch_of.resize(surface.triangle_count());
+  if (surface.triangle_count() == 0) return partition;
+
+  // Set aside what merging cannot handle.
+  const EdgeLinks links(surface);
+  const TriangleGroups glued =
+      glue_nonmanifold_stars(surface, links, max_triangles(options.triangles_per_patch));
+  const TriangleGroups small =
+      group_small_regions(surface, links, glued, options.triangles_per_patch);
+
+  // Merge the rest, then number the patches of small regions behind.
+  const std::uint32_t clusters = first_clusters(glued, small, partition.patch_of);
+  if (clusters > 0)
+    merge_clusters(surface, links, {partition.patch_of, clusters}, options, partition);
+  for (std::uint32_t t = 0; small.count > 0 && t < surface.triangle_count(); ++t)
+    if (small.of(t) != kNone) partition.patch_of[t] = partition.patch_count + small.of(t);
+  partition.patch_count += small.count;
+
+  measure(surface, links, partition);
+  for (const std::int32_t euler :
+       euler_characteristics(surface, links, {partition.patch_of, partition.patch_count}))
+    partition.non_discs += euler != 1;
+  return partition;
+}
+
+}  // namespace varifold
