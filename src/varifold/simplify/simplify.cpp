@@ -3,6 +3,7 @@
 #include <varifold/simplify/collapse_rounds.h>
 #include <varifold/simplify/deviation.h>
 #include <varifold/simplify/energy_collapser.h>
+#include <varifold/simplify/input_fault.h>
 #include <varifold/simplify/placement_collapser.h>
 #include <varifold/simplify/sequence_builder.h>
 #include <varifold/simplify/stop_report.h>
@@ -18,33 +19,6 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-std::string check_input(const TriangleMesh& mesh) {
-  const std::size_t vertices = mesh.positions.size();
-  if (vertices >= kNone || mesh.indices.size() / 3 >= kNone / 3)
-    return "mesh too large for 32 bits";
-  if (mesh.indices.size() % 3 != 0) return "the number of indices is no multiple of three";
-  for (std::size_t i = 0; i < mesh.indices.size(); ++i)
-    if (mesh.indices[i] >= vertices)
-      return "triangle " + std::to_string(i / 3) + " uses vertex " +
-             std::to_string(mesh.indices[i]) + " of " + std::to_string(vertices);
-  for (std::size_t v = 0; v < vertices; ++v)
-    for (int k = 0; k < 3; ++k)
-      if (!std::isfinite(mesh.positions[v][k]))
-        return "vertex " + std::to_string(v) + " has a position that is not finite";
-  const auto fits = [&](std::size_t size) { return size == 0 || size == vertices; };
-  if (!fits(mesh.normals.size()) || !fits(mesh.texcoords.size()) || !fits(mesh.colors.size()))
-    return "an attribute array has another size than the positions";
-  std::uint32_t next = 0;
-  for (const MaterialRange& range : mesh.ranges) {
-    if (range.first_triangle != next || range.triangle_count > mesh.triangle_count() - next)
-      return "the material ranges do not cover the triangles in order";
-    next += range.triangle_count;
-  }
-  if (!mesh.ranges.empty() && next != mesh.triangle_count())
-    return "the material ranges do not cover all triangles";
-  return {};
 }
 
 // The number of steps after which the mesh has at most `target` faces.
@@ -116,7 +90,7 @@ CollapseLog run_energy(const EnergyInput& input, const SimplifyOptions& options,
 }  // namespace
 
 Result<Simplification> simplify(const TriangleMesh& mesh, const SimplifyOptions& options) {
-  if (std::string fault = check_input(mesh); !fault.empty())
+  if (std::string fault = input_fault(mesh); !fault.empty())
     return fail(ErrorKind::kInvalidInput, std::move(fault));
   const auto start = Clock::now();
   Simplification result;

@@ -97,6 +97,9 @@ void LevelHalving::find_survivors(std::span<const CollapseLogEntry> log) {
     for (std::uint32_t w = wedge.first[log[i].from]; w < wedge.first[log[i].from + 1]; ++w)
       survivor_[w] = survivor_[wedge.target[w]];
   }
+  went_.clear();
+  for (const CollapseLogEntry& entry : log)
+    went_.emplace_back(entry.from, point_of(survivor_[surface_.wedge.first_of(entry.from)]));
 }
 
 void LevelHalving::shrink(LevelMesh& mesh) const {

@@ -12,6 +12,7 @@
 #include <varifold/simplify/working_surface.h>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace varifold {
@@ -50,6 +51,10 @@ class LevelHalving {
 
   /// Where a wedge of the level before went; itself if it stayed.
   [[nodiscard]] std::uint32_t survivor(std::uint32_t wedge) const { return survivor_[wedge]; }
+  /// The points that went, each with the point where it ended up.
+  [[nodiscard]] std::span<const std::pair<std::uint32_t, std::uint32_t>> went() const {
+    return went_;
+  }
   [[nodiscard]] const BorderGuard& guard() const { return guard_; }
 
  private:
@@ -66,6 +71,7 @@ class LevelHalving {
   HalvingOptions options_;
   BorderGuard guard_;
   std::vector<std::uint32_t> survivor_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> went_;
 };
 
 }  // namespace varifold

@@ -1,0 +1,249 @@
+#include <varifold/models/patch_tree/build.h>
+
+#include <varifold/base/parallel.h>
+#include <varifold/models/patch_tree/assemble.h>
+#include <varifold/models/patch_tree/level_blocks.h>
+#include <varifold/models/patch_tree/level_errors.h>
+#include <varifold/models/patch_tree/level_halving.h>
+#include <varifold/partition/patch_levels.h>
+#include <varifold/partition/patches.h>
+#include <varifold/simplify/input_fault.h>
+#include <varifold/simplify/point_quadric.h>
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace varifold {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// A level that keeps more than this part of its triangles is not worth having.
+constexpr double kPoorRatio = 0.9;
+// More triangles than this in a patch would not fit its 16-bit numbers.
+constexpr std::uint32_t kMaxPatchTriangles = 21000;
+
+class Stopwatch {
+ public:
+  // Adds the time since the last call to `seconds`.
+  void add_to(double& seconds) {
+    const Clock::time_point now = Clock::now();
+    seconds += std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+  }
+
+ private:
+  Clock::time_point last_ = Clock::now();
+};
+
+bool needs_wedges(const TriangleMesh& mesh) {
+  return mesh.has_normals() || mesh.has_texcoords() || mesh.has_colors() || mesh.ranges.size() > 1;
+}
+
+class Builder {
+ public:
+  Builder(const TriangleMesh& mesh, const PatchTreeOptions& options)
+      : mesh_(mesh), options_(options) {}
+
+  Result<PatchTreeBuild> build();
+
+ private:
+  void make_surface();
+  bool cut_into_patches();
+  void order_by_patches(const std::vector<std::uint32_t>& patch_of);
+  bool make_levels_of_detail();
+  void begin_level(std::uint32_t level);
+  bool is_worth_it(std::uint32_t before, const HalvingReport& halving) const;
+  void keep_level(const LevelMesh& mesh, std::uint32_t level, const LevelHalving* halving);
+  [[nodiscard]] std::uint32_t point_of(std::uint32_t wedge) const {
+    return surface_.wedge.has_seams() ? surface_.wedge.point_of[wedge] : wedge;
+  }
+  [[nodiscard]] std::vector<std::uint32_t> points_of(const LevelMesh& mesh) const;
+
+  const TriangleMesh& mesh_;
+  const PatchTreeOptions& options_;
+  PatchTreeBuild result_;
+  Stopwatch watch_;
+  WorkingSurface surface_;
+  AttributeField attributes_;
+  std::vector<std::uint32_t> material_of_;  // per triangle of the input, or empty
+  PatchLevels levels_;
+  LevelMesh level_mesh_;                   // of the present level
+  std::vector<std::uint32_t> patch_of_;    // per face of it
+  std::vector<std::uint32_t> first_face_;  // per patch of it, and one more
+  std::vector<AssembledLevel> kept_;       // from the leaves on
+};
+
+void Builder::make_surface() {
+  SurfaceOptions options;
+  options.with_wedges = needs_wedges(mesh_);
+  options.threads = options_.threads;
+  surface_ = build_surface(mesh_, options, result_.report.faults);
+  if (mesh_.ranges.size() > 1) material_of_ = triangle_materials(mesh_);
+  if (!options.with_wedges) return;
+  attributes_ = AttributeField(mesh_, surface_.wedge.vertex_of, options_.attributes);
+  if (!attributes_.empty()) add_faces_to_attributes(surface_, attributes_, options_.threads);
+}
+
+// The triangles along the numbers of their points, and the leaves and levels made of them.
+bool Builder::cut_into_patches() {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> order;
+  order.reserve(surface_.face_count);
+  const auto corner = [&](std::uint32_t face, std::size_t k) {
+    return surface_.point_of_vertex[mesh_.indices[3 * std::size_t{face} + k]];
+  };
+  for (std::uint32_t face = 0; face < mesh_.triangle_count(); ++face)
+    if (surface_.is_face[face])
+      order.emplace_back(std::min({corner(face, 0), corner(face, 1), corner(face, 2)}), face);
+  std::sort(order.begin(), order.end());
+
+  std::vector<std::uint32_t> corners, materials;
+  std::vector<Vec3> positions(surface_.point_count());
+  corners.reserve(3 * order.size());
+  for (const auto& [first, face] : order) {
+    level_mesh_.faces.push_back(face);
+    for (std::size_t k = 0; k < 3; ++k) corners.push_back(corner(face, k));
+    if (!material_of_.empty()) materials.push_back(material_of_[face]);
+  }
+  order = {};
+  for (std::size_t p = 0; p < positions.size(); ++p) positions[p] = surface_.points[p].position;
+
+  const SurfaceView view{corners, positions, materials};
+  PartitionOptions options;
+  options.triangles_per_patch = options_.triangles_per_patch;
+  options.smooth = options_.smooth_borders;
+  options.threads = options_.threads;
+  options.progress = options_.progress;
+  Partition partition = make_patches(view, options);
+  if (partition.cancelled) return false;
+  levels_ = make_levels(view, partition, options_.threads);
+  result_.report.non_disc_leaves = partition.non_discs;
+  order_by_patches(partition.patch_of);
+  return true;
+}
+
+void Builder::order_by_patches(const std::vector<std::uint32_t>& patch_of) {
+  const std::uint32_t patches = levels_.level_count() > 0 ? levels_.patch_count(0) : 0;
+  first_face_.assign(patches + 1, 0);
+  for (const std::uint32_t patch : patch_of) ++first_face_[patch + 1];
+  for (std::size_t i = 1; i < first_face_.size(); ++i) first_face_[i] += first_face_[i - 1];
+  std::vector<std::uint32_t> next(first_face_.begin(), first_face_.end() - 1);
+  std::vector<std::uint32_t> faces(patch_of.size());
+  patch_of_.resize(patch_of.size());
+  for (std::size_t i = 0; i < patch_of.size(); ++i) {
+    const std::uint32_t at = next[patch_of[i]]++;
+    faces[at] = level_mesh_.faces[i];
+    patch_of_[at] = patch_of[i];
+  }
+  level_mesh_.faces = std::move(faces);
+  level_mesh_.corners.resize(3 * patch_of.size());
+  for (std::size_t i = 0; i < patch_of.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t at = 3 * std::size_t{level_mesh_.faces[i]} + k;
+      level_mesh_.corners[3 * i + k] = surface_.wedge.has_seams()
+                                           ? surface_.wedge.corners[at]
+                                           : surface_.point_of_vertex[mesh_.indices[at]];
+    }
+}
+
+std::vector<std::uint32_t> Builder::points_of(const LevelMesh& mesh) const {
+  std::vector<std::uint32_t> points(mesh.corners.size());
+  for (std::size_t i = 0; i < points.size(); ++i) points[i] = point_of(mesh.corners[i]);
+  return points;
+}
+
+// The patches to come are the regions whose borders are kept.
+void Builder::begin_level(std::uint32_t level) {
+  surface_.region_of.resize(mesh_.triangle_count(), kNone);
+  for (std::size_t i = 0; i < patch_of_.size(); ++i)
+    surface_.region_of[level_mesh_.faces[i]] = levels_.parent[level][patch_of_[i]];
+}
+
+bool Builder::is_worth_it(std::uint32_t before, const HalvingReport& halving) const {
+  if (!halving.is_sound || level_mesh_.face_count() > kPoorRatio * before) return false;
+  std::vector<std::uint32_t> sizes(levels_.parent[kept_.size()].back() + 1, 0);
+  for (const std::uint32_t face : level_mesh_.faces) ++sizes[surface_.region_of[face]];
+  return *std::max_element(sizes.begin(), sizes.end()) <= kMaxPatchTriangles &&
+         *std::min_element(sizes.begin(), sizes.end()) > 0;
+}
+
+void Builder::keep_level(const LevelMesh& mesh, std::uint32_t level, const LevelHalving* halving) {
+  AssembledLevel kept;
+  kept.neighbors = patch_neighbors(points_of(mesh), surface_.point_count(), patch_of_,
+                                   levels_.patch_count(level));
+  if (halving) kept.parent = levels_.parent[level];
+  const FinishedLevel finished{mesh, first_face_, kept.parent, material_of_, surface_, halving};
+  BlockLayout layout(surface_.wedge.has_seams()
+                         ? static_cast<std::uint32_t>(surface_.wedge.vertex_of.size())
+                         : surface_.point_count(),
+                     options_.threads);
+  AssembledLevel* finer = kept_.empty() ? nullptr : &kept_.back();
+  kept.blocks = layout.lay_out(
+      finished, finer ? &finer->blocks : nullptr,
+      finer ? first_children(*finer, levels_.patch_count(level)) : std::vector<std::uint32_t>{});
+  result_.report.level_triangles.push_back(mesh.face_count());
+  result_.report.level_patches.push_back(levels_.patch_count(level));
+  kept_.push_back(std::move(kept));
+}
+
+bool Builder::make_levels_of_detail() {
+  LevelHalving halving(surface_, attributes_, {options_.threads, options_.progress});
+  LevelErrors errors(surface_, options_.threads);
+  for (std::uint32_t level = 0;; ++level) {
+    const bool is_last = level + 1 == levels_.level_count();
+    if (is_last) {
+      keep_level(level_mesh_, level, nullptr);
+      return true;
+    }
+    begin_level(level);
+    const LevelMesh before = level_mesh_;
+    const HalvingReport report = halving.halve(level_mesh_, (before.face_count() + 1) / 2);
+    if (report.cancelled) return false;
+    result_.report.reruns += report.reruns;
+    result_.report.locked_points += report.locked_points;
+    watch_.add_to(result_.report.halving_seconds);
+    if (!is_worth_it(before.face_count(), report)) {
+      result_.report.stop = TreeStop::kPoorRatio;
+      keep_level(before, level, nullptr);
+      return true;
+    }
+    errors.measure(halving.went());
+    watch_.add_to(result_.report.error_seconds);
+    keep_level(before, level, &halving);
+    add_errors(kept_.back(), errors, surface_);
+    // On to the patches of the next level.
+    patch_of_.resize(level_mesh_.faces.size());
+    first_face_.assign(levels_.patch_count(level + 1) + 1, 0);
+    for (std::size_t i = 0; i < patch_of_.size(); ++i) {
+      patch_of_[i] = surface_.region_of[level_mesh_.faces[i]];
+      ++first_face_[patch_of_[i] + 1];
+    }
+    for (std::size_t i = 1; i < first_face_.size(); ++i) first_face_[i] += first_face_[i - 1];
+    watch_.add_to(result_.report.layout_seconds);
+  }
+}
+
+Result<PatchTreeBuild> Builder::build() {
+  make_surface();
+  if (surface_.face_count == 0) {
+    result_.tree = PatchTree(empty_tree(mesh_));
+    return std::move(result_);
+  }
+  if (!cut_into_patches()) return fail(ErrorKind::kCancelled, "cancelled while making patches");
+  watch_.add_to(result_.report.partition_seconds);
+  if (!make_levels_of_detail()) return fail(ErrorKind::kCancelled, "cancelled while simplifying");
+  result_.tree = PatchTree(assemble(mesh_, surface_, std::move(kept_)));
+  watch_.add_to(result_.report.layout_seconds);
+  return std::move(result_);
+}
+
+}  // namespace
+
+Result<PatchTreeBuild> build_patch_tree(const TriangleMesh& mesh, const PatchTreeOptions& options) {
+  if (std::string fault = input_fault(mesh); !fault.empty())
+    return fail(ErrorKind::kInvalidInput, std::move(fault));
+  return Builder(mesh, options).build();
+}
+
+}  // namespace varifold

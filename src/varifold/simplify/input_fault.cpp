@@ -1,0 +1,34 @@
+#include <varifold/simplify/input_fault.h>
+
+#include <cmath>
+
+namespace varifold {
+
+std::string input_fault(const TriangleMesh& mesh) {
+  const std::size_t vertices = mesh.positions.size();
+  if (vertices >= kNone || mesh.indices.size() / 3 >= kNone / 3)
+    return "mesh too large for 32 bits";
+  if (mesh.indices.size() % 3 != 0) return "the number of indices is no multiple of three";
+  for (std::size_t i = 0; i < mesh.indices.size(); ++i)
+    if (mesh.indices[i] >= vertices)
+      return "triangle " + std::to_string(i / 3) + " uses vertex " +
+             std::to_string(mesh.indices[i]) + " of " + std::to_string(vertices);
+  for (std::size_t v = 0; v < vertices; ++v)
+    for (int k = 0; k < 3; ++k)
+      if (!std::isfinite(mesh.positions[v][k]))
+        return "vertex " + std::to_string(v) + " has a position that is not finite";
+  const auto fits = [&](std::size_t size) { return size == 0 || size == vertices; };
+  if (!fits(mesh.normals.size()) || !fits(mesh.texcoords.size()) || !fits(mesh.colors.size()))
+    return "an attribute array has another size than the positions";
+  std::uint32_t next = 0;
+  for (const MaterialRange& range : mesh.ranges) {
+    if (range.first_triangle != next || range.triangle_count > mesh.triangle_count() - next)
+      return "the material ranges do not cover the triangles in order";
+    next += range.triangle_count;
+  }
+  if (!mesh.ranges.empty() && next != mesh.triangle_count())
+    return "the material ranges do not cover all triangles";
+  return {};
+}
+
+}  // namespace varifold
