@@ -124,7 +124,8 @@ bool BorderGuard::allows(std::uint32_t from, std::uint32_t onto) {
   if (target == kNone || regions[0] == kNone) return false;
   const std::uint32_t last = points_[target].last;
   join(b, target);
-  const bool sound = is_sound(target, regions[0]) && is_sound(target, regions[1]);
+  const bool sound = is_sound(target, regions[0]) && is_sound(target, regions[1]) &&
+                     (points_[target].regions[0] != kNone || is_free_of_clashes(target));
   part(b, target, last);
   return sound;
 }
@@ -242,7 +243,7 @@ bool BorderGuard::verify(BorderLocks& locks) {
   chords_.clear();
   std::vector<std::uint32_t> regions;
   for (std::uint32_t b = 0; b < points_.size(); ++b) {
-    find_chords(b);
+    find_chords(b, false);
     if (points_[b].target != b) continue;
     find_new_chords(b);
     if (points_[b].next == kNone) continue;  // nothing came here
@@ -273,7 +274,7 @@ void BorderGuard::lock_around(std::uint32_t target, BorderLocks& locks) const {
 }
 
 // An edge of K between two points of borders, as it may be drawn: inside a region, or on a border.
-void BorderGuard::find_chords(std::uint32_t border) {
+void BorderGuard::find_chords(std::uint32_t border, bool all) {
   const BorderPoint& p = points_[border];
   for (const StarFace& out : star(p)) {
     const std::uint32_t other = border_of_[out.from];
@@ -281,7 +282,7 @@ void BorderGuard::find_chords(std::uint32_t border) {
     std::uint32_t beyond = kNone;
     for (const StarFace& in : star(p))
       if (in.to == out.from) beyond = in.region;
-    if (beyond == out.region && out.from < p.point) continue;  // seen from the other end
+    if (!all && beyond == out.region && out.from < p.point) continue;  // seen from the other end
     const std::uint32_t ends[2] = {border, other};
     for (std::uint32_t moved = 0; moved < 4; ++moved) {
       Chord chord{0, {{out.region, false}, {}, {}}, beyond, border, other};
@@ -331,6 +332,17 @@ bool BorderGuard::clash(const Chord& x, const Chord& y) {
   for (const Need& a : x.needs)
     for (const Need& b : y.needs)
       if (a.region != kNone && a.region == b.region && a.coarse != b.coarse) return false;
+  return true;
+}
+
+// Nearly all clashes are between two regions at a corner onto which points of both have moved.
+bool BorderGuard::is_free_of_clashes(std::uint32_t corner) {
+  chords_.clear();
+  for (std::uint32_t i = corner; i != kNone; i = points_[i].next) find_chords(i, true);
+  std::sort(chords_.begin(), chords_.end());
+  for (std::size_t i = 0; i < chords_.size(); ++i)
+    for (std::size_t j = i; j-- > 0 && chords_[j].edge == chords_[i].edge;)
+      if (clash(chords_[i], chords_[j])) return false;
   return true;
 }
 

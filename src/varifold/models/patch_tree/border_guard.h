@@ -120,7 +120,8 @@ class BorderGuard final : public CollapseGuard {
     return surface_.points[point].position;
   }
   void lock_around(std::uint32_t target, BorderLocks& locks) const;
-  void find_chords(std::uint32_t border);
+  void find_chords(std::uint32_t border, bool all);
+  [[nodiscard]] bool is_free_of_clashes(std::uint32_t corner);
   void find_new_chords(std::uint32_t border);
   [[nodiscard]] static bool clash(const Chord& x, const Chord& y);
   [[nodiscard]] bool lock_chords(BorderLocks& locks);
