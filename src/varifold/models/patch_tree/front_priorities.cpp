@@ -1,0 +1,121 @@
+#include <varifold/models/patch_tree/front_priorities.h>
+
+#include <varifold/models/patch_tree/front_lanes.h>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace varifold {
+
+namespace {
+
+// Weights that leave a priority as it is or make it 0, and no light.
+bool is_plain(const ViewCriterion& view) {
+  const auto is_switch = [](float weight) { return weight == 0 || weight == 1; };
+  return is_switch(view.outside_weight) && is_switch(view.back_weight) &&
+         view.silhouette_weight == 1 && !view.light;
+}
+
+// Cameras that see nothing and numbers that are none ask for nothing.
+bool is_sound(const ViewCriterion& view) {
+  const auto is_finite = [](const Vec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+  };
+  for (const Plane& plane : view.frustum.planes)
+    if (!is_finite(plane.normal) || !std::isfinite(plane.offset)) return false;
+  const float focal = view.scale.focal_pixels();
+  return is_finite(view.eye) && std::isfinite(focal) && focal > 0;
+}
+
+FrontPriorities::Numbers numbers_of(const ViewCriterion& view) {
+  FrontPriorities::Numbers numbers;
+  numbers.eye_x = view.eye.x;
+  numbers.eye_y = view.eye.y;
+  numbers.eye_z = view.eye.z;
+  numbers.focal = view.scale.focal_pixels();
+  numbers.near_distance = view.scale.near_distance();
+  for (std::size_t i = 0; i < view.frustum.planes.size(); ++i) {
+    const Plane& plane = view.frustum.planes[i];
+    numbers.planes[i] = {plane.normal.x, plane.normal.y, plane.normal.z, plane.offset};
+  }
+  return numbers;
+}
+
+// The paper's priority of what a view sees.
+float mean_squared_priority(const ViewCriterion& view, const PatchBounds& bounds) {
+  if (view.outside_weight == 0 && classify(view.frustum, bounds.ball) == Containment::kOutside)
+    return 0;
+  if (view.back_weight == 0 && is_back_facing(bounds.cone, bounds.ball, view.eye)) return 0;
+  const float gap = distance_to(bounds.ball, view.eye);
+  return bounds.mean_squared / (gap * gap);
+}
+
+}  // namespace
+
+bool FrontPriorities::set(const RefineCriteria& criteria, PatchMeasure measure) {
+  const bool has_places =
+      criteria.sphere || criteria.plane || !criteria.boxes.empty() || criteria.predicate != nullptr;
+  const bool sees = criteria.view && is_sound(*criteria.view);
+  const bool plain = sees && !has_places && is_plain(*criteria.view);
+  std::uint8_t parts = measure == PatchMeasure::kMeanSquared ? kMeanSquares : 0;
+  Numbers numbers;
+  if (plain) {
+    numbers = numbers_of(*criteria.view);
+    if (criteria.view->outside_weight == 0) parts |= kCulls;
+    if (criteria.view->back_weight == 0) parts |= kTurns;
+  }
+  const bool same = is_set_ && plain && is_plain_ && parts == parts_ && numbers == numbers_;
+  if (same) return false;
+  is_set_ = true;
+  is_plain_ = plain;
+  parts_ = parts;
+  numbers_ = numbers;
+  measure_ = measure;
+  boxes_.assign(criteria.boxes.begin(), criteria.boxes.end());
+  criteria_ = criteria;
+  criteria_.boxes = boxes_;
+  if (!sees) criteria_.view.reset();
+  return true;
+}
+
+float FrontPriorities::evaluate_singly(const PatchBounds& bounds, float limit) const {
+  float own = 0;
+  if (measure_ == PatchMeasure::kPixels) {
+    own = criteria_.urgency({bounds.ball, bounds.cone, bounds.error});
+  } else if (criteria_.is_placed_on(bounds.ball, bounds.error)) {
+    own = 1.5f * RefineCriteria::kFullDetail;
+  } else if (criteria_.view) {
+    own = mean_squared_priority(*criteria_.view, bounds);
+  }
+  own = own > 0 ? own : 0;
+  return limit < own ? limit : own;
+}
+
+void FrontPriorities::evaluate(const FrontTables& tables, std::span<const std::uint64_t> exists,
+                               std::span<float> priorities) const {
+  priorities[tables.no_parent()] = std::numeric_limits<float>::infinity();
+  if (is_plain_) {
+    front_lanes::evaluate(parts_, numbers_, {tables, exists, priorities});
+    return;
+  }
+  for (std::uint32_t word = 0; word < exists.size(); ++word) {
+    for (std::uint64_t rest = exists[word]; rest != 0; rest &= rest - 1) {
+      const std::uint32_t node = 64 * word + static_cast<std::uint32_t>(std::countr_zero(rest));
+      const float limit = priorities[tables.lanes().parent[node]];
+      priorities[node] = evaluate_singly(tables.tree().data().bounds[node], limit);
+    }
+  }
+}
+
+void FrontPriorities::evaluate_children(const FrontTables& tables, std::uint32_t first,
+                                        std::uint32_t count, float limit,
+                                        std::span<float> priorities) const {
+  if (is_plain_) {
+    front_lanes::evaluate_run(parts_, numbers_, tables, {first, count, limit, priorities});
+    return;
+  }
+  for (std::uint32_t node = first; node < first + count; ++node)
+    priorities[node] = evaluate_singly(tables.tree().data().bounds[node], limit);
+}
+
+}  // namespace varifold
