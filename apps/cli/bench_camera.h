@@ -154,7 +154,8 @@ class CameraWalk {
 
   void measure(std::span<const Camera> cameras, std::vector<CameraFrame>& frames) {
     InstanceOf<Model> instance(model_);
-    FrameJumps jumps(collapse_targets(*model_));
+    std::optional<FrameJumps> jumps;
+    if constexpr (UniformModel<Model>) jumps.emplace(collapse_targets(*model_));
     ListMeasures lists;
     for (std::size_t i = 0; i < cameras.size(); ++i) {
       (void)adapt(instance, cameras[i]);
@@ -162,7 +163,7 @@ class CameraWalk {
       lists.next(list, frames[i]);
       std::vector<std::uint32_t> vertices;
       if constexpr (NumbersVertices<Model>) vertices = instance.vertices_of_slots();
-      frames[i].jumps = jumps.next(list, vertices, cameras[i]);
+      if (jumps) frames[i].jumps = jumps->next(list, vertices, cameras[i]);
     }
   }
 
