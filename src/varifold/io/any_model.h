@@ -123,6 +123,12 @@ struct ModelKind<PatchTree> {
     return decode_patch_tree(bytes, Checksums::kTrust);
   }
   static std::vector<std::byte> encode(const PatchTree& model) { return encode_patch_tree(model); }
+  /// Full detail on the side of a plane that its normal points to, the base elsewhere.
+  static FrontStatistics adapt_to_plane(Instance& instance, const Vec3& point, const Vec3& normal) {
+    RefineCriteria criteria;
+    criteria.plane = Plane{normal, -glm::dot(normal, point)};
+    return instance.adapt(criteria);
+  }
 };
 
 template <class... Models>
@@ -134,9 +140,8 @@ struct ModelList {
     (visit.template operator()<Models>(), ...);
   }
 };
-using AllModels =
-    ModelList<ProgressiveMesh, StripFramework, LodStrips, MultiresolutionStrips, ViewDependentMesh,
-              PatchTree>;
+using AllModels = ModelList<ProgressiveMesh, StripFramework, LodStrips, MultiresolutionStrips,
+                            ViewDependentMesh, PatchTree>;
 
 /// One immutable model of any kind; std::visit with a generic lambda, whose parameter is a
 /// std::shared_ptr<const Model>. All kinds satisfy LeveledModel, their instances LeveledInstance.
