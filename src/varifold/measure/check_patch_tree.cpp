@@ -47,6 +47,8 @@ class PatchTreeChecker {
     if (!go_on("levels", 0.1f)) return cancelled();
     full_ = extract_front(*tree_, level_flags(tree_->finest_level()));
     full_counts_ = check::count_surface(full_);
+    materials_.materials = full_.materials;
+    materials_.ranges = full_.ranges;
     if (!check_levels() || !check_fronts()) return cancelled();
     for (const PlaceFaults* faults : {&level_faults_, &patch_faults_, &front_faults_})
       faults->append_to(check_.faults);
@@ -80,7 +82,7 @@ class PatchTreeChecker {
 
   std::shared_ptr<const PatchTree> tree_;
   const ModelCheckOptions& options_;
-  TriangleMesh full_;
+  TriangleMesh full_, materials_;  // the latter has those and the ranges of the former alone
   check::SurfaceCounts full_counts_;
   ModelCheck check_;
   PlaceFaults level_faults_{"level"}, patch_faults_{"patch"}, front_faults_{"front", "front_"};
@@ -146,8 +148,7 @@ FrontLook PatchTreeChecker::look_at_seeded(std::uint32_t number) const {
     look.findings.push_back({"wrong_corner", front.name});
     return look;
   }
-  const auto drawn =
-      check::sorted(check::placed_triangles(check::drawn_mesh(tree_->attributes(), list)));
+  const auto drawn = check::sorted(check::placed_triangles(check::drawn_mesh(materials_, list)));
   if (drawn != check::sorted(check::placed_triangles(instance.extract())))
     look.findings.push_back({"not_identical", front.name});
   if (told.triangles != drawn.size() + look.collapsed)

@@ -108,6 +108,15 @@ DVec3 normal_of(const Vec3& a, const Vec3& b, const Vec3& c) {
   return glm::cross(DVec3(b) - DVec3(a), DVec3(c) - DVec3(a));
 }
 
+// Triangles on a line, up to the rounding of their corners, have no side to turn to.
+bool has_area(const DVec3& normal, const Vec3& a, const Vec3& b, const Vec3& c) {
+  constexpr double kRounding = 1e-6;
+  const auto square = [](const DVec3& v) { return glm::dot(v, v); };
+  const double longest = std::max(
+      {square(DVec3(b) - DVec3(a)), square(DVec3(c) - DVec3(b)), square(DVec3(a) - DVec3(c))});
+  return glm::length(normal) > kRounding * longest;
+}
+
 bool is_turned(const PatchTreeData& data, const std::uint32_t* own,
                const std::uint32_t (&drawn)[3]) {
   // 75 degrees, and what floats may be off by where the builder looks.
@@ -116,8 +125,10 @@ bool is_turned(const PatchTreeData& data, const std::uint32_t* own,
   const std::vector<Vec3>& at = data.vertices.positions;
   const DVec3 before = normal_of(at[own[0]], at[own[1]], at[own[2]]);
   const DVec3 after = normal_of(at[drawn[0]], at[drawn[1]], at[drawn[2]]);
-  const double lengths = glm::length(before) * glm::length(after);
-  return glm::length(before) > 0 && !(glm::dot(before, after) >= kMinCosine * lengths);
+  if (!has_area(before, at[own[0]], at[own[1]], at[own[2]]) ||
+      !has_area(after, at[drawn[0]], at[drawn[1]], at[drawn[2]]))
+    return false;
+  return glm::dot(before, after) < kMinCosine * glm::length(before) * glm::length(after);
 }
 
 // Whether a triangle turns under some set of the bits that move its corners.

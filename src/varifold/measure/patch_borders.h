@@ -19,7 +19,8 @@ namespace varifold::check {
 void check_borders(const PatchTree& tree, PlaceFaults& faults);
 
 /// Looks at every border triangle with every set of the neighbours that move its corners. Faults,
-/// by node: turned_triangle, turned by 75 degrees or more against the patch's own one.
+/// by node: turned_triangle, turned by 75 degrees or more against the patch's own one; where both
+/// have an area.
 void check_turns(const PatchTree& tree, PlaceFaults& faults);
 
 /// Faults, by node: outside_ball, a vertex that is not in its patch's ball; outside_cone, a
