@@ -110,8 +110,8 @@ class BorderGuard final : public CollapseGuard {
   [[nodiscard]] std::uint32_t image(std::uint32_t point, std::uint32_t region,
                                     const Mixture& mixture) const;
   [[nodiscard]] int count_fans(std::uint32_t target, std::uint32_t region, const Mixture& mixture);
-  [[nodiscard]] bool keeps_normals(std::uint32_t target, std::uint32_t region,
-                                   const Mixture& mixture) const;
+  [[nodiscard]] bool keeps_shapes(std::uint32_t target, std::uint32_t region,
+                                  const Mixture& mixture) const;
   [[nodiscard]] int count_paths();
   [[nodiscard]] std::span<const StarFace> star(const BorderPoint& p) const {
     return {star_.data() + p.first_face, star_.data() + p.last_face};
