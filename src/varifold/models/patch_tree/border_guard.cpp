@@ -341,12 +341,22 @@ void BorderGuard::find_new_chords(std::uint32_t border) {
   }
 }
 
+// Whether K had the edge in that region: then all that show it show one edge of K.
+bool BorderGuard::was_edge(const Chord& chord) const {
+  const std::uint32_t other = points_[chord.b].point;
+  const auto faces = star(points_[chord.a]);
+  return std::any_of(faces.begin(), faces.end(), [&](const StarFace& face) {
+    return face.region == chord.needs[0].region && (face.from == other || face.to == other);
+  });
+}
+
 // Whether two regions may show the same edge at one time, not as their common border.
-bool BorderGuard::clash(const Chord& x, const Chord& y) {
+bool BorderGuard::clash(const Chord& x, const Chord& y) const {
   if (x.needs[0].region == y.needs[0].region) return false;  // fans tell
   if (x.is_border() && y.is_border()) return false;
   if (x.is_border() && x.beyond == y.needs[0].region) return false;
   if (y.is_border() && y.beyond == x.needs[0].region) return false;
+  if (std::minmax(x.a, x.b) == std::minmax(y.a, y.b) && was_edge(x) && was_edge(y)) return false;
   for (const Need& a : x.needs)
     for (const Need& b : y.needs)
       if (a.region != kNone && a.region == b.region && a.coarse != b.coarse) return false;

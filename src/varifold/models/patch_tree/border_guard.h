@@ -123,7 +123,8 @@ class BorderGuard final : public CollapseGuard {
   void find_chords(std::uint32_t border, bool all);
   [[nodiscard]] bool is_free_of_clashes(std::uint32_t corner);
   void find_new_chords(std::uint32_t border);
-  [[nodiscard]] static bool clash(const Chord& x, const Chord& y);
+  [[nodiscard]] bool was_edge(const Chord& chord) const;
+  [[nodiscard]] bool clash(const Chord& x, const Chord& y) const;
   [[nodiscard]] bool lock_chords(BorderLocks& locks);
 
   WorkingSurface& surface_;
