@@ -1,6 +1,7 @@
 #include <varifold/models/patch_tree/level_halving.h>
 
 #include <varifold/base/parallel.h>
+#include <varifold/models/patch_tree/component_removal.h>
 #include <varifold/simplify/classify.h>
 #include <varifold/simplify/collapse_rounds.h>
 #include <varifold/simplify/packed_normal.h>
@@ -43,33 +44,60 @@ HalvingReport LevelHalving::halve(LevelMesh& mesh, std::uint32_t target_faces) {
   HalvingReport report;
   BorderLocks locks;
   set_references(mesh);
-  CollapserOptions options;
-  options.legality.min_shape = kMinShape;
-  Collapser collapser(surface_, &attributes_, options);
-  collapser.guard = &guard_;
-  RoundOptions rounds;
-  rounds.target_faces = target_faces;
-  rounds.exact = true;
-  rounds.threads = options_.threads;
-  rounds.progress = options_.progress;
   while (true) {
     classify_points(surface_, options_.threads);
     guard_.begin_level(locks);
     if (report.reruns == kMaxReruns) guard_.lock_all();
-    const CollapseLog log = run_rounds(surface_, collapser, rounds);
-    report.cancelled = log.cancelled;
+    std::vector<CollapseLogEntry> log;
+    report.cancelled = !collapse(target_faces, log);
     const BorderLocks before = locks;
-    report.is_sound = !log.cancelled && guard_.verify(locks);
-    if (report.is_sound || log.cancelled || report.reruns == kMaxReruns) {
-      find_survivors(log.entries);
+    report.is_sound = !report.cancelled && guard_.verify(locks);
+    if (report.is_sound || report.cancelled || report.reruns == kMaxReruns) {
+      report.vanished_points = vanish(target_faces, log);
+      find_survivors(log);
       break;
     }
     report.reruns = locks == before ? kMaxReruns : report.reruns + 1;
-    restore(mesh, log.entries);
+    restore(mesh, log);
   }
   report.locked_points = static_cast<std::uint32_t>(locks.points.size());
   shrink(mesh);
   return report;
+}
+
+// Down to the target; what keeps needles away is relaxed where nothing else is left to do. False
+// where cancelled.
+bool LevelHalving::collapse(std::uint32_t target_faces, std::vector<CollapseLogEntry>& log) {
+  for (const float min_shape : {kMinShape, LegalityOptions().min_shape}) {
+    if (surface_.face_count <= target_faces) break;
+    CollapserOptions options;
+    options.legality.min_shape = min_shape;
+    Collapser collapser(surface_, &attributes_, options);
+    collapser.guard = &guard_;
+    RoundOptions rounds;
+    rounds.target_faces = target_faces;
+    rounds.exact = true;
+    rounds.threads = options_.threads;
+    rounds.progress = options_.progress;
+    const CollapseLog done = run_rounds(surface_, collapser, rounds);
+    log.insert(log.end(), done.entries.begin(), done.entries.end());
+    if (done.cancelled) return false;
+  }
+  return true;
+}
+
+// Components that cannot be halved and lie inside one patch go as a whole.
+std::uint32_t LevelHalving::vanish(std::uint32_t target_faces, std::vector<CollapseLogEntry>& log) {
+  if (surface_.face_count <= target_faces) return 0;
+  const auto gone = remove_components(surface_, target_faces);
+  WedgeTables& wedge = surface_.wedge;
+  for (const auto& [from, onto] : gone) {
+    log.push_back({from, onto, 0, 0, 0});
+    if (!wedge.has_seams()) continue;
+    for (std::uint32_t w = wedge.first[from]; w < wedge.first[from + 1]; ++w)
+      wedge.target[w] = wedge.first[onto];
+  }
+  return static_cast<std::uint32_t>(gone.size());
 }
 
 void LevelHalving::restore(const LevelMesh& mesh, std::span<const CollapseLogEntry> log) {

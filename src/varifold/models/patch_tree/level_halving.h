@@ -32,9 +32,10 @@ struct HalvingOptions {
 };
 
 struct HalvingReport {
-  std::uint32_t reruns = 0;         ///< because a mixture was found to be unsound
-  std::uint32_t locked_points = 0;  ///< for that reason
-  bool is_sound = false;            ///< of all mixtures with the level before
+  std::uint32_t reruns = 0;           ///< because a mixture was found to be unsound
+  std::uint32_t locked_points = 0;    ///< for that reason
+  std::uint32_t vanished_points = 0;  ///< of components that went as a whole
+  bool is_sound = false;              ///< of all mixtures with the level before
   bool cancelled = false;
 };
 
@@ -59,6 +60,9 @@ class LevelHalving {
 
  private:
   void set_references(const LevelMesh& mesh);
+  [[nodiscard]] bool collapse(std::uint32_t target_faces, std::vector<CollapseLogEntry>& log);
+  [[nodiscard]] std::uint32_t vanish(std::uint32_t target_faces,
+                                     std::vector<CollapseLogEntry>& log);
   void restore(const LevelMesh& mesh, std::span<const CollapseLogEntry> log);
   void find_survivors(std::span<const CollapseLogEntry> log);
   void shrink(LevelMesh& mesh) const;
