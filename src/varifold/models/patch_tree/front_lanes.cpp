@@ -35,24 +35,26 @@ struct Columns {
   const float *x, *y, *z, *radius, *error, *mean_squared, *axis_x, *axis_y, *axis_z, *cosine, *sine;
 };
 
-// Whether facing() of view/cone.h says that all is turned away, in its steps; not for wide cones
-// and eyes inside the ball. The ray goes from the eye to the centre.
+// Above 0 where facing() of view/cone.h says that all is turned away, in its steps. The ray goes
+// from the eye to the centre.
 struct Ray {
   float x, y, z, length;
 };
-VARIFOLD_INLINE bool is_turned_away(const Columns& at, std::size_t i, const Ray& ray) {
-  const float sine_b = greater(at.radius[i], 0) / ray.length;
+VARIFOLD_INLINE float turned_away(const Columns& at, std::size_t i, const Ray& ray) {
+  const float radius = at.radius[i], cosine = at.cosine[i], sine = at.sine[i];
+  const float sine_b = greater(radius, 0) / ray.length;
   const float cosine_b = std::sqrt(greater(1 - sine_b * sine_b, 0));
-  const float cosine_sum = at.cosine[i] * cosine_b - at.sine[i] * sine_b;
-  const float sine_sum = at.sine[i] * cosine_b + at.cosine[i] * sine_b;
+  const float cosine_sum = cosine * cosine_b - sine * sine_b;
+  const float sine_sum = sine * cosine_b + cosine * sine_b;
   const float along =
       (at.axis_x[i] * ray.x + at.axis_y[i] * ray.y + at.axis_z[i] * ray.z) / ray.length;
   constexpr float kRounding = 1e-6f;
-  return (at.cosine[i] > 0) & (ray.length > at.radius[i]) & (cosine_sum > 0) &
-         (along > sine_sum + kRounding);
+  return smaller(smaller(cosine, ray.length - radius),
+                 smaller(cosine_sum, along - (sine_sum + kRounding)));
 }
 
-// What FrontPriorities::evaluate_singly() says, in its steps, without branches.
+// What FrontPriorities::evaluate_singly() says, in its steps, without branches: differences have
+// the sign of comparisons.
 template <std::uint8_t kParts>
 VARIFOLD_INLINE float priority(const Numbers& view, const Columns& at, std::size_t i) {
   constexpr bool kMeanSquares = (kParts & 1u) != 0, kCulls = (kParts & 2u) != 0,
@@ -61,27 +63,36 @@ VARIFOLD_INLINE float priority(const Numbers& view, const Columns& at, std::size
   const float dx = x - view.eye_x, dy = y - view.eye_y, dz = z - view.eye_z;
   const float length = std::sqrt(dx * dx + dy * dy + dz * dz);
   const float gap = greater(length - radius, 0);
-  bool hidden = kCulls & (radius < 0);
-  if constexpr (kCulls)
-    for (const auto& plane : view.planes)
-      hidden |= plane[0] * x + plane[1] * y + plane[2] * z + plane[3] < -radius;
-  if constexpr (kTurns) hidden |= is_turned_away(at, i, {dx, dy, dz, length});
   float own = 0;
   if constexpr (kMeanSquares)
     own = at.mean_squared[i] / (gap * gap);
   else
     own = smaller(at.error[i] * view.focal / greater(gap, view.near_distance),
                   RefineCriteria::kFullDetail);
-  return (own > 0) & !hidden ? own : 0;
+  own = own > 0 ? own : 0;
+  if constexpr (kCulls) {
+    float inside = radius;  // of empty balls nothing is
+    for (const auto& plane : view.planes)
+      inside = smaller(inside, plane[0] * x + plane[1] * y + plane[2] * z + plane[3] + radius);
+    own = inside < 0 ? 0 : own;
+  }
+  if constexpr (kTurns) own = turned_away(at, i, {dx, dy, dz, length}) > 0 ? 0 : own;
+  return own;
 }
 
-// Eight nodes from `first` on.
+// The next kCount nodes from `first` on.
+template <std::uint8_t kParts, std::uint32_t kCount>
+VARIFOLD_INLINE void evaluate_lanes(const Numbers& view, const Columns& at, std::uint32_t first,
+                                    float* __restrict own) {
+  for (std::uint32_t i = 0; i < kCount; ++i) own[i] = priority<kParts>(view, at, first + i);
+}
+
 template <std::uint8_t kParts>
 VARIFOLD_INLINE void evaluate_block(const Numbers& view, const Columns& at,
                                     const std::uint32_t* parent, std::uint32_t first,
                                     float* priorities) {
   float own[kLanes], limit[kLanes];
-  for (std::uint32_t i = 0; i < kLanes; ++i) own[i] = priority<kParts>(view, at, first + i);
+  evaluate_lanes<kParts, kLanes>(view, at, first, own);
   for (std::uint32_t i = 0; i < kLanes; ++i) limit[i] = priorities[parent[first + i]];
   for (std::uint32_t i = 0; i < kLanes; ++i) priorities[first + i] = smaller(limit[i], own[i]);
 }
@@ -120,7 +131,7 @@ VARIFOLD_INLINE void evaluate_run_of(const Numbers& view, const FrontTables& tab
     float own[kFew];
     // What is beyond the last child is padding at worst.
     const std::uint32_t first = run.first + done;
-    for (std::uint32_t i = 0; i < kFew; ++i) own[i] = priority<kParts>(view, at, first + i);
+    evaluate_lanes<kParts, kFew>(view, at, first, own);
     for (std::uint32_t i = 0; i < kFew && done + i < run.count; ++i)
       run.priorities[first + i] = smaller(run.limit, own[i]);
   }
