@@ -97,6 +97,24 @@ TEST(FrontPriorities, OfManyNodesAreThoseOfEachToTheBit) {
   EXPECT_GT(hidden, 1000);
 }
 
+TEST(FrontScan, FindsWhatIsWithin) {
+  Random random(47);
+  std::vector<float> priorities(64);
+  for (int round = 0; round < 500; ++round) {
+    for (float& p : priorities) p = random.below(9) == 0 ? HUGE_VALF : 0.1f * random.below(10);
+    std::uint64_t nodes = random.next();
+    if (round % 3 == 0) nodes &= 0xff0000ff00ff0000ull;
+    const front_scan::Window window{0.1f * random.below(10),
+                                    round % 2 == 0 ? HUGE_VALF : 0.1f * random.below(10)};
+    std::uint64_t expected = 0;
+    for (std::uint32_t i = 0; i < 64; ++i)
+      if ((nodes >> i & 1u) != 0 && priorities[i] > window.above && priorities[i] <= window.up_to)
+        expected |= 1ull << i;
+    ASSERT_EQ(front_scan::word_within(nodes, priorities.data(), window), expected);
+    ASSERT_EQ(front_scan::word_within_plain(nodes, priorities.data(), window), expected);
+  }
+}
+
 TEST(FrontQueue, GivesTheGreatestFirst) {
   Random random(43);
   FrontQueue queue(4000);

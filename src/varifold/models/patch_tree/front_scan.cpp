@@ -10,17 +10,6 @@ namespace varifold::front_scan {
 
 namespace {
 
-// Those of a word of a set that are within the window; priorities begin with that of its bit 0.
-std::uint64_t word_within_plain(std::uint64_t nodes, const float* priorities,
-                                const Window& window) {
-  std::uint64_t bits = 0;
-  front_bits::for_each_of_word(nodes, 0, [&](std::uint32_t i) {
-    const bool is_within = (priorities[i] > window.above) & (priorities[i] <= window.up_to);
-    bits |= static_cast<std::uint64_t>(is_within) << i;
-  });
-  return bits;
-}
-
 using WordWithin = std::uint64_t (*)(std::uint64_t, const float*, const Window&);
 
 #if defined(__x86_64__)
@@ -51,6 +40,20 @@ constexpr WordWithin kWordWithin = word_within_plain;
 #endif
 
 }  // namespace
+
+std::uint64_t word_within_plain(std::uint64_t nodes, const float* priorities,
+                                const Window& window) {
+  std::uint64_t bits = 0;
+  front_bits::for_each_of_word(nodes, 0, [&](std::uint32_t i) {
+    const bool is_within = (priorities[i] > window.above) & (priorities[i] <= window.up_to);
+    bits |= static_cast<std::uint64_t>(is_within) << i;
+  });
+  return bits;
+}
+
+std::uint64_t word_within(std::uint64_t nodes, const float* priorities, const Window& window) {
+  return kWordWithin(nodes, priorities, window);
+}
 
 void find_above(const Among& among, float tolerance, std::span<std::uint64_t> above) {
   const Window window{tolerance, HUGE_VALF};

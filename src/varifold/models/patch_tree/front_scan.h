@@ -23,4 +23,11 @@ void find_above(const Among& among, float tolerance, std::span<std::uint64_t> ab
 void collect(const Among& among, std::span<const std::uint64_t> except, const Window& window,
              std::vector<std::uint32_t>& found);
 
+/// Of a word of a set, whose priorities are given from that of its bit 0 on. In two ways with the
+/// same results: with the vectors that the machine has, and without.
+[[nodiscard]] std::uint64_t word_within(std::uint64_t nodes, const float* priorities,
+                                        const Window& window);
+[[nodiscard]] std::uint64_t word_within_plain(std::uint64_t nodes, const float* priorities,
+                                              const Window& window);
+
 }  // namespace varifold::front_scan

@@ -99,7 +99,6 @@ void FrontSet::keep_above(float tolerance, const ResidentChildren& resident) {
 bool FrontSet::gather(std::uint32_t node, const ResidentChildren& resident) {
   chain_.clear();
   chain_.push_back(node);
-  add(gathered_, node);
   bool possible = true;
   for (std::size_t i = 0; i < chain_.size() && possible; ++i) {
     possible = resident.of(chain_[i]);
@@ -112,9 +111,10 @@ bool FrontSet::gather(std::uint32_t node, const ResidentChildren& resident) {
       }
     }
   }
+  if (chain_.size() == 1) return possible;
   for (const std::uint32_t member : chain_) remove(gathered_, member);
   // Coarse ones first.
-  if (chain_.size() > 1) std::sort(chain_.begin(), chain_.end());
+  std::sort(chain_.begin(), chain_.end());
   return possible;
 }
 
