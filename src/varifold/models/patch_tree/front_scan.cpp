@@ -58,15 +58,15 @@ std::uint64_t word_within(std::uint64_t nodes, const float* priorities, const Wi
 void find_above(const Among& among, float tolerance, std::span<std::uint64_t> above) {
   const Window window{tolerance, HUGE_VALF};
   front_bits::for_each(among.words, [&](std::uint32_t word) {
-    above[word] = kWordWithin(among.nodes[word], among.priorities.data() + 64 * word, window);
+    above[word] = kWordWithin(among.nodes[word], &among.priorities[std::size_t{64} * word], window);
   });
 }
 
 void collect(const Among& among, std::span<const std::uint64_t> except, const Window& window,
              std::vector<std::uint32_t>& found) {
   front_bits::for_each(among.words, [&](std::uint32_t word) {
-    const std::uint64_t within =
-        kWordWithin(among.nodes[word] & ~except[word], among.priorities.data() + 64 * word, window);
+    const std::uint64_t within = kWordWithin(among.nodes[word] & ~except[word],
+                                             &among.priorities[std::size_t{64} * word], window);
     front_bits::for_each_of_word(within, word, [&](std::uint32_t node) { found.push_back(node); });
   });
 }
