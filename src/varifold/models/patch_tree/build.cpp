@@ -202,6 +202,7 @@ bool Builder::make_levels_of_detail() {
     if (report.cancelled) return false;
     result_.report.reruns += report.reruns;
     result_.report.locked_points += report.locked_points;
+    result_.report.vanished_points += report.vanished_points;
     watch_.add_to(result_.report.halving_seconds);
     if (!is_worth_it(before.face_count(), report)) {
       result_.report.stop = TreeStop::kPoorRatio;

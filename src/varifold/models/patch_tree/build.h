@@ -35,8 +35,9 @@ struct PatchTreeReport {
   TreeStop stop = TreeStop::kOneRoot;
   InputFaults faults;
   std::uint32_t non_disc_leaves = 0;
-  std::uint32_t reruns = 0;         ///< of levels, because a mixture of patches was unsound
-  std::uint32_t locked_points = 0;  ///< for that reason
+  std::uint32_t reruns = 0;           ///< of levels, because a mixture of patches was unsound
+  std::uint32_t locked_points = 0;    ///< for that reason
+  std::uint32_t vanished_points = 0;  ///< of components that went as a whole
   std::vector<std::uint32_t> level_triangles;  ///< from the leaves on
   std::vector<std::uint32_t> level_patches;
   double partition_seconds = 0, halving_seconds = 0, layout_seconds = 0, error_seconds = 0;
