@@ -137,12 +137,27 @@ EdgeUse edge_use(WorkingSurface& surface, std::uint32_t point, std::uint32_t nei
   return use;
 }
 
-void classify_points(WorkingSurface& surface, int threads) {
+namespace {
+
+template <class Which>
+void classify_where(WorkingSurface& surface, int threads, const Which& which) {
   parallel_for(threads, surface.point_count(), 4096, [&](std::size_t begin, std::size_t end) {
-    for (auto p = static_cast<std::uint32_t>(begin); p < end; ++p)
-      if (!(surface.points[p].flags & PointState::kDead))
-        surface.points[p].kind = kind_of(surface, p);
+    for (auto p = static_cast<std::uint32_t>(begin); p < end; ++p) {
+      PointState& point = surface.points[p];
+      if (!(point.flags & PointState::kDead) && which(point)) point.kind = kind_of(surface, p);
+    }
   });
+}
+
+}  // namespace
+
+void classify_points(WorkingSurface& surface, int threads) {
+  classify_where(surface, threads, [](const PointState&) { return true; });
+}
+
+void reclassify_points(WorkingSurface& surface, int threads) {
+  classify_where(surface, threads,
+                 [](const PointState& point) { return point.kind != VertexKind::kManifold; });
 }
 
 }  // namespace varifold

@@ -45,7 +45,11 @@ HalvingReport LevelHalving::halve(LevelMesh& mesh, std::uint32_t target_faces) {
   BorderLocks locks;
   set_references(mesh);
   while (true) {
-    classify_points(surface_, options_.threads);
+    if (is_first_)
+      classify_points(surface_, options_.threads);
+    else
+      reclassify_points(surface_, options_.threads);
+    is_first_ = false;
     guard_.begin_level(locks);
     if (report.reruns == kMaxReruns) guard_.lock_all();
     std::vector<CollapseLogEntry> log;

@@ -74,6 +74,7 @@ class LevelHalving {
   AttributeField& attributes_;
   HalvingOptions options_;
   BorderGuard guard_;
+  bool is_first_ = true;  // level
   std::vector<std::uint32_t> survivor_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> went_;
 };
