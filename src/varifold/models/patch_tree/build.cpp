@@ -213,6 +213,8 @@ bool Builder::make_levels_of_detail() {
     watch_.add_to(result_.report.error_seconds);
     keep_level(before, level, &halving);
     add_errors(kept_.back(), errors, surface_);
+    if (options_.priority == PatchPriority::kMeanValue)
+      add_mean_value_errors(kept_.back(), errors, surface_, options_.threads);
     // On to the patches of the next level.
     patch_of_.resize(level_mesh_.faces.size());
     first_face_.assign(levels_.patch_count(level + 1) + 1, 0);

@@ -17,9 +17,16 @@
 
 namespace varifold {
 
+/// How far a patch is from its children, for the paper's priority.
+enum class PatchPriority {
+  kClosestPoint,  ///< from each vertex that goes to the nearest place of the coarse surface
+  kMeanValue,     ///< to its image by mean value coordinates, as in the paper (mean_value_map.h)
+};
+
 struct PatchTreeOptions {
   std::uint32_t triangles_per_patch = 512;  ///< the mean, at every level; at least 1
   bool smooth_borders = true;
+  PatchPriority priority = PatchPriority::kClosestPoint;
   AttributeWeights attributes;
   int threads = 0;  ///< 0 = all; the result does not depend on it
   Progress progress;
