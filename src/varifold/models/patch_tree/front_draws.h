@@ -25,7 +25,7 @@ struct PatchDraw {
 };
 
 /// The draws of a set of split nodes, in slots that draws keep as long as they can. The order of
-/// the slots depends on what came before, the set of draws does not. 4 bytes a node and 12 an inner
+/// the slots depends on what came before, the set of draws does not. 4 bytes a node and 5 an inner
 /// node; allocates in the constructor, and where a front is greater than any before.
 class FrontDraws {
  public:

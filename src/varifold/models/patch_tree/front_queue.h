@@ -32,8 +32,8 @@ class FrontQueue {
  public:
   explicit FrontQueue(std::uint32_t nodes) : heads_(kBuckets, kNone), next_(nodes), keys_(nodes) {}
 
-  /// A node that is not in the queue; its priority is not negative, not NaN, and not above that of
-  /// the last one that was popped.
+  /// A node that is not in the queue; its priority is neither negative nor NaN. In any order, but
+  /// quick where it is not above the one that was popped last.
   void push(float priority, std::uint32_t node) {
     const FrontKey key = front_key(priority, node);
     const std::uint32_t bucket = bucket_of(key);

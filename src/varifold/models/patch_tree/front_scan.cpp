@@ -65,8 +65,9 @@ void find_above(const Among& among, float tolerance, std::span<std::uint64_t> ab
 void collect(const Among& among, std::span<const std::uint64_t> except, const Window& window,
              std::vector<std::uint32_t>& found) {
   front_bits::for_each(among.words, [&](std::uint32_t word) {
-    const std::uint64_t within = kWordWithin(among.nodes[word] & ~except[word],
-                                             &among.priorities[std::size_t{64} * word], window);
+    const std::uint64_t left = among.nodes[word] & ~(except.empty() ? 0 : except[word]);
+    const std::uint64_t within =
+        kWordWithin(left, &among.priorities[std::size_t{64} * word], window);
     front_bits::for_each_of_word(within, word, [&](std::uint32_t node) { found.push_back(node); });
   });
 }

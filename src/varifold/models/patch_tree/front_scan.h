@@ -19,7 +19,8 @@ struct Among {
 
 /// Which are above the tolerance, into the words of `above`.
 void find_above(const Among& among, float tolerance, std::span<std::uint64_t> above);
-/// Adds those within the window that are not in `except`, ascending.
+/// Adds those within the window that are not in `except`, ascending; nothing is where that has no
+/// words.
 void collect(const Among& among, std::span<const std::uint64_t> except, const Window& window,
              std::vector<std::uint32_t>& found);
 

@@ -53,8 +53,6 @@ void FrontSet::reset() {
     split_[word] = exists_[word] = wanted_[word] = 0;
   });
   std::fill(words_.begin(), words_.end(), 0);
-  if (has_blocked_) std::fill(blocked_.begin(), blocked_.end(), 0);
-  has_blocked_ = false;
   split_count_ = 0;
   add_roots();
 }
@@ -67,27 +65,23 @@ std::uint32_t FrontSet::forced_count() const {
   return count;
 }
 
-// Split nodes that may not stay so: their own children are not resident, or those of a node that
-// they require. What is required has smaller numbers.
-void FrontSet::block(const ResidentChildren& resident) {
-  if (!has_blocked_ && resident.are_resident == nullptr) return;
+// Split nodes that may not stay so are not wanted: their own children are not resident, or those of
+// a node that they require. What is required has smaller numbers.
+void FrontSet::unwant_blocked(const ResidentChildren& resident) {
   std::fill(blocked_.begin(), blocked_.end(), 0);
-  has_blocked_ = resident.are_resident != nullptr;
-  if (!has_blocked_) return;
   front_bits::for_each(words_, [&](std::uint32_t word) {
     front_bits::for_each_of_word(split_[word], word, [&](std::uint32_t node) {
       bool is_blocked = !resident.of(node);
       for (const std::uint32_t r : tables_->required_by(node)) is_blocked |= has(blocked_, r);
       if (is_blocked) add(blocked_, node);
     });
+    wanted_[word] &= ~blocked_[word];
   });
 }
 
 void FrontSet::keep_above(float tolerance, const ResidentChildren& resident) {
-  block(resident);
   front_scan::find_above(among(split_), tolerance, wanted_);
-  if (has_blocked_)
-    for (std::size_t word = 0; word < wanted_.size(); ++word) wanted_[word] &= ~blocked_[word];
+  if (resident.are_resident != nullptr) unwant_blocked(resident);
   // What depends on a node has a greater number: one pass is enough.
   front_bits::for_each_down(words_, [&](std::uint32_t word) {
     front_bits::for_each_of_word_down(split_[word] & ~wanted_[word], word, [&](std::uint32_t node) {
@@ -103,12 +97,9 @@ bool FrontSet::gather(std::uint32_t node, const ResidentChildren& resident) {
   for (std::size_t i = 0; i < chain_.size() && possible; ++i) {
     possible = resident.of(chain_[i]);
     for (const std::uint32_t r : tables_->required_by(chain_[i])) {
-      if (is_split(r)) {
-        possible &= !has_blocked_ || !has(blocked_, r);
-      } else if (!has(gathered_, r)) {
-        add(gathered_, r);
-        chain_.push_back(r);
-      }
+      if (is_split(r) || has(gathered_, r)) continue;
+      add(gathered_, r);
+      chain_.push_back(r);
     }
   }
   if (chain_.size() == 1) return possible;
@@ -172,7 +163,7 @@ void FrontSet::collect_unwanted(float above, float up_to, std::vector<std::uint3
 }
 
 void FrontSet::collect_wanted(float above, float up_to, std::vector<std::uint32_t>& nodes) const {
-  front_scan::collect(among(wanted_), blocked_, {above, up_to}, nodes);
+  front_scan::collect(among(wanted_), {}, {above, up_to}, nodes);
 }
 
 void FrontSet::collect_unsplit(float tolerance, std::vector<std::uint32_t>& nodes) const {

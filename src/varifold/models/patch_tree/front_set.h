@@ -84,20 +84,19 @@ class FrontSet {
 
  private:
   using Bits = std::vector<std::uint64_t>;
-  // All but blocked_ and gathered_, which are empty most of the time, in the words that exist.
+  // For split_, exists_ and wanted_; the other sets belong to functions.
   [[nodiscard]] front_scan::Among among(const Bits& nodes) const {
     return {words_, nodes, priorities_};
   }
   void add_roots();
   void add_existing(std::uint32_t first, std::uint32_t end);
   void remove_existing(std::uint32_t first, std::uint32_t end);
-  void block(const ResidentChildren& resident);
+  void unwant_blocked(const ResidentChildren& resident);
   void merge(std::uint32_t node);
 
   const FrontTables* tables_;
   Bits split_, exists_, wanted_, blocked_, gathered_;
   Bits words_, changed_;  // sets of words: where nodes exist; where split_ has changed
-  bool has_blocked_ = false;
   std::vector<std::uint32_t> dependants_;
   std::vector<float> priorities_;
   std::uint64_t triangles_ = 0;
