@@ -55,7 +55,7 @@ TEST(MeanValueMap, WhatNothingHoldsHasNoPlace) {
     EXPECT_LT(squared, 0);
 }
 
-TEST(MeanValueMap, GivesPrioritiesLikeThoseOfClosestPoints) {
+TEST(MeanValueMap, GivesPrioritiesAboveThoseOfClosestPoints) {
   PlanetOptions shape;
   shape.triangles = 20000;
   const TriangleMesh mesh = planet(shape);
@@ -68,9 +68,10 @@ TEST(MeanValueMap, GivesPrioritiesLikeThoseOfClosestPoints) {
   for (std::uint32_t node = 0; node < mapped->tree.node_count(); ++node) {
     const float a = closest->tree.data().bounds[node].mean_squared;
     const float b = mapped->tree.data().bounds[node].mean_squared;
-    // An image is a place somewhere, the closest point the nearest of all, or nearly.
+    // An image is a place near by, the closest point the nearest of all, or nearly.
+    const float radius = mapped->tree.data().bounds[node].ball.radius;
     EXPECT_GE(b, 0.7f * a) << node;
-    EXPECT_LE(b, 100 * a) << node;
+    EXPECT_LE(b, 0.1f * radius * radius) << node;
     EXPECT_EQ(closest->tree.data().bounds[node].error, mapped->tree.data().bounds[node].error);
   }
 }
