@@ -209,7 +209,7 @@ bool Builder::make_levels_of_detail() {
       keep_level(before, level, nullptr);
       return true;
     }
-    errors.measure(halving.went());
+    errors.measure(halving.went(), halving.live());
     watch_.add_to(result_.report.error_seconds);
     keep_level(before, level, &halving);
     add_errors(kept_.back(), errors, surface_);

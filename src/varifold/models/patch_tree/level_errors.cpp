@@ -67,7 +67,8 @@ void LevelErrors::carry(std::uint32_t point, const Vec3& sample, float squared) 
   sample_[point] = sample;
 }
 
-void LevelErrors::measure(std::span<const std::pair<std::uint32_t, std::uint32_t>> went) {
+void LevelErrors::measure(std::span<const std::pair<std::uint32_t, std::uint32_t>> went,
+                          std::span<const std::uint32_t> live) {
   std::vector<float> carried(went.size());
   parallel_for(threads_, went.size(), 1024, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -76,9 +77,8 @@ void LevelErrors::measure(std::span<const std::pair<std::uint32_t, std::uint32_t
       carried[i] = greatest_[from] > 0 ? squared_distance(sample_[from], onto) : 0.0f;
     }
   });
-  parallel_for(threads_, surface_.point_count(), 4096, [&](std::size_t begin, std::size_t end) {
-    for (auto p = static_cast<std::uint32_t>(begin); p < end; ++p) {
-      if (surface_.points[p].flags & PointState::kDead) continue;
+  parallel_for(threads_, live.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    for (const std::uint32_t p : live.subspan(begin, end - begin)) {
       step_[p] = 0;
       if (greatest_[p] > 0) greatest_[p] = std::sqrt(squared_distance(sample_[p], p));
     }

@@ -20,8 +20,9 @@ class LevelErrors {
   explicit LevelErrors(const WorkingSurface& surface, int threads);
 
   /// The surface has been halved: `went` are the points that collapsed, each with the point where
-  /// it ended up. O(points).
-  void measure(std::span<const std::pair<std::uint32_t, std::uint32_t>> went);
+  /// it ended up; `live` are those that are left. O(points).
+  void measure(std::span<const std::pair<std::uint32_t, std::uint32_t>> went,
+               std::span<const std::uint32_t> live);
 
   /// Of a point that went with the last level, or stayed: the squared distance from where it was to
   /// the surface.
