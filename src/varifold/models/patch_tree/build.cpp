@@ -174,14 +174,11 @@ void Builder::keep_level(const LevelMesh& mesh, std::uint32_t level, const Level
                                    levels_.patch_count(level));
   if (halving) kept.parent = levels_.parent[level];
   const FinishedLevel finished{mesh, first_face_, kept.parent, material_of_, surface_, halving};
-  BlockLayout layout(surface_.wedge.has_seams()
-                         ? static_cast<std::uint32_t>(surface_.wedge.vertex_of.size())
-                         : surface_.point_count(),
-                     options_.threads);
   AssembledLevel* finer = kept_.empty() ? nullptr : &kept_.back();
-  kept.blocks = layout.lay_out(
-      finished, finer ? &finer->blocks : nullptr,
-      finer ? first_children(*finer, levels_.patch_count(level)) : std::vector<std::uint32_t>{});
+  const std::vector<std::uint32_t> first_child =
+      finer ? first_children(*finer, levels_.patch_count(level)) : std::vector<std::uint32_t>{};
+  kept.blocks =
+      lay_out_blocks(finished, finer ? &finer->blocks : nullptr, first_child, options_.threads);
   result_.report.level_triangles.push_back(mesh.face_count());
   result_.report.level_patches.push_back(levels_.patch_count(level));
   kept_.push_back(std::move(kept));
