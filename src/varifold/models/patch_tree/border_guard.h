@@ -39,7 +39,7 @@ class BorderGuard final : public CollapseGuard {
   void lock_all();
 
   [[nodiscard]] bool watches(std::uint32_t point) const override {
-    return border_of_[point] != kNone;
+    return surface_.points[point].kind != VertexKind::kManifold && border_of_[point] != kNone;
   }
   [[nodiscard]] bool allows(std::uint32_t from, std::uint32_t onto) override;
   void collapsed(std::uint32_t from, std::uint32_t onto) override;

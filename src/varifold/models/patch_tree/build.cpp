@@ -237,6 +237,13 @@ Result<PatchTreeBuild> Builder::build() {
   if (!cut_into_patches()) return fail(ErrorKind::kCancelled, "cancelled while making patches");
   watch_.add_to(result_.report.partition_seconds);
   if (!make_levels_of_detail()) return fail(ErrorKind::kCancelled, "cancelled while simplifying");
+  // Only where its vertices come from is needed of the surface any more.
+  surface_.points = {};
+  surface_.lines = {};
+  surface_.pools = {};
+  surface_.region_of = {};
+  surface_.reference_normal = {};
+  level_mesh_ = {};
   result_.tree = PatchTree(assemble(mesh_, surface_, std::move(kept_)));
   watch_.add_to(result_.report.layout_seconds);
   return std::move(result_);

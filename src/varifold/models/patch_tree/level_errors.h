@@ -31,14 +31,14 @@ class LevelErrors {
   [[nodiscard]] float greatest(std::uint32_t point) const { return greatest_[point]; }
 
  private:
-  [[nodiscard]] float squared_distance(const Vec3& sample, std::uint32_t point) const;
-  void carry(std::uint32_t point, const Vec3& sample, float squared);
+  [[nodiscard]] float squared_distance(std::uint32_t sample, std::uint32_t point) const;
+  void carry(std::uint32_t point, std::uint32_t sample, float squared);
 
   const WorkingSurface& surface_;
   int threads_;
   std::vector<float> step_;  // squared
   std::vector<float> greatest_;
-  std::vector<Vec3> sample_;
+  std::vector<std::uint32_t> sample_;  // a point of the original
 };
 
 }  // namespace varifold

@@ -86,8 +86,11 @@ bool LevelHalving::collapse(std::uint32_t target_faces, std::vector<CollapseLogE
     rounds.live = live_;
     rounds.threads = options_.threads;
     rounds.progress = options_.progress;
-    const CollapseLog done = run_rounds(surface_, collapser, rounds);
-    log.insert(log.end(), done.entries.begin(), done.entries.end());
+    CollapseLog done = run_rounds(surface_, collapser, rounds);
+    if (log.empty())
+      log = std::move(done.entries);
+    else
+      log.insert(log.end(), done.entries.begin(), done.entries.end());
     if (done.cancelled) return false;
   }
   return true;
