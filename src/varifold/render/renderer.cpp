@@ -100,7 +100,10 @@ void Renderer::Impl::set_camera_uniforms(const gl::Program& program) const {
 }
 
 void Renderer::Impl::set_style_uniforms(const gl::Program& program, const DrawStyle& style) const {
-  const float tint = style.back_faces == BackFaces::kTinted ? 0.9f : 0.0f;
+  // The shader mixes half of it in after shading, so that 2 leaves nothing else.
+  float tint = 0;
+  if (style.back_faces == BackFaces::kTinted) tint = 0.9f;
+  if (style.back_faces == BackFaces::kSignal) tint = 2;
   gl::set_uniform(program, "placement", style.placement);
   gl::set_uniform(program, "back_tint", Vec4(linear_from_srgb(style.back_tint), tint));
   gl::set_uniform(program, "flat_shading", static_cast<int>(style.shading == Shading::kFlat));

@@ -27,6 +27,7 @@ enum class ColorMode {
 
 enum class BackFaces {
   kTinted,     ///< lit, but in DrawStyle::back_tint: flips and holes show
+  kSignal,     ///< in DrawStyle::back_tint, without shading: what is seen through cracks
   kLikeFront,  ///< two-sided surfaces
   kCulled,     ///< not drawn
 };
