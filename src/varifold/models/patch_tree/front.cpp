@@ -94,7 +94,7 @@ void PatchFront::go_to_level(std::uint32_t level) {
     set_.want(node);
   }
   is_settled_ = false;
-  draws_.follow(set_.split());
+  draws_.follow(set_);
 }
 
 // What is no longer wanted is merged, what is wanted is split: above the priority where the last
