@@ -176,6 +176,17 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
 
 LevelBlocks join(std::vector<LevelBlocks>& pieces) {
   LevelBlocks all;
+  PatchOffsets sum;
+  for (const LevelBlocks& piece : pieces) {
+    const PatchOffsets& end = piece.offsets.back();
+    sum = {sum.vertex + end.vertex, sum.triangle + end.triangle, sum.controller + end.controller,
+           sum.range + end.range};
+  }
+  all.wedges.reserve(sum.vertex);
+  all.survivors.reserve(sum.vertex);
+  all.controllers.reserve(sum.controller);
+  all.corners.reserve(3 * std::size_t{sum.triangle});
+  all.ranges.reserve(sum.range);
   all.offsets.emplace_back();
   for (LevelBlocks& piece : pieces) {
     const PatchOffsets base = all.offsets.back();
