@@ -116,6 +116,8 @@ CommandResult check_levels(const CheckCommand& command, const std::filesystem::p
   report.count("levels_checked", "levels checked", check->levels_checked);
   report.count("distances_checked", "errors measured again", check->distances_checked);
   if (HasFronts<Model>) report.count("fronts_checked", "fronts checked", check->fronts_checked);
+  if constexpr (!UniformModel<Model>)
+    report.count("collapsed_triangles", "collapsed in fronts", check->collapsed_triangles);
   report.seconds("seconds", "time", watch.seconds());
   return tell(command, check->faults, report);
 }
