@@ -2,6 +2,7 @@
 // cmake/check_no_exceptions.sh. One vertex split by hand, there and back, and through its bytes.
 #include <varifold/models/mts/encoding.h>
 #include <varifold/models/mts/instance.h>
+#include <varifold/models/patch_tree/front.h>
 #include <varifold/models/pm/encoding.h>
 #include <varifold/models/pm/geomorph.h>
 #include <varifold/models/pm/instance.h>
@@ -99,6 +100,28 @@ bool strips_are_right() {
   return coarse && fine && coarsened && instance.adapt(criteria).triangles == 3;
 }
 
+// A patch of one triangle, which is two of two triangles each in detail.
+bool patch_front_is_right() {
+  varifold::PatchTreeData data;
+  data.topology.first_of_level = {0, 1, 3};
+  data.topology.parent = {varifold::kNone, 0, 0};
+  data.topology.first_child = {1, 3, 3, 3};
+  data.topology.first_neighbor = {0, 0, 1, 2};
+  data.topology.neighbors = {2, 1};
+  data.bounds.resize(3);
+  for (varifold::PatchBounds& bounds : data.bounds) bounds.ball.radius = 1;
+  data.bounds[0].error = 0.5f;
+  data.offsets = {{0, 0, 0, 0}, {3, 1, 0, 1}, {7, 3, 0, 2}, {11, 5, 0, 3}};
+  varifold::PatchFront front(std::make_shared<const varifold::PatchTree>(std::move(data)));
+  varifold::RefineCriteria criteria;
+  criteria.view.emplace(varifold::Camera{});
+  const bool fine = front.adapt(criteria, {}).statistics.triangles == 4;
+  varifold::PatchFrontOptions options;
+  options.limits.max_triangles = 3;
+  const bool coarse = front.adapt(criteria, options).statistics.triangles == 1;
+  return fine && coarse && front.draws().draws().size() == 1;
+}
+
 }  // namespace
 
 int main() {
@@ -116,7 +139,7 @@ int main() {
   geomorph.blend(0);
   const bool morphs = geomorph.mesh().positions[3] == varifold::Vec3(0, 0, 0);
   if (!refined || !undone || !survives || !refused || !morphs || !strips_are_right() ||
-      !graphs_are_right()) {
+      !graphs_are_right() || !patch_front_is_right()) {
     std::puts("no exceptions: a level is wrong");
     return 1;
   }

@@ -7,8 +7,8 @@
 #pragma once
 
 #include <varifold/partition/cluster_graph.h>
+#include <array>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 namespace varifold {
@@ -26,44 +26,72 @@ struct MergeLimits {
   bool discs = true;                  ///< only unions that are no farther from discs than the parts
 };
 
+/// Clusters keep their numbers: a union has the lower one of its two parts.
 class MergeRounds {
  public:
   MergeRounds(ClusterGraph graph, int threads);
 
-  /// Merges until so many clusters are left, or nothing that is allowed. Clusters are numbered by
-  /// their lowest member. About O(n) for n clusters.
+  /// Merges until so many clusters are left, or nothing that is allowed. The same result for any
+  /// number of threads. About O(n) for n clusters.
   void run(const MergeLimits& limits);
 
-  [[nodiscard]] const ClusterGraph& graph() const { return graph_; }
-  /// Hands the graph on; nothing may be run afterwards.
-  [[nodiscard]] ClusterGraph take_graph() { return std::move(graph_); }
-  /// Per cluster of the graph at the start: its cluster now.
-  [[nodiscard]] const std::vector<std::uint32_t>& cluster_of() const { return cluster_of_; }
+  /// Those that are left, ascending.
+  [[nodiscard]] const std::vector<std::uint32_t>& alive() const { return alive_; }
+  /// The cluster that a cluster of the start is part of now.
+  [[nodiscard]] std::uint32_t cluster_of(std::uint32_t first) const { return resolve(first); }
 
  private:
+  static constexpr std::uint32_t kUnknown = kNone - 1;  // choose again
+
+  // What a cluster would like to merge with.
   struct Choice {
+    float cost = 0;
+    std::uint32_t other = kUnknown;  // kNone: nothing is allowed
+    std::uint32_t chosen_at = 0;     // the round; 0: never
+    std::uint32_t changed_at = 0;    // the round of the last merge of the chooser
+  };
+  struct Pair {
+    std::uint32_t a, b;
     float cost;
-    std::uint32_t other;  // kNone: nothing allowed
+    std::uint32_t links, points;  // where the rows of the union begin
   };
 
-  void choose(const MergeLimits& limits);
+  struct Found {
+    std::vector<Pair> pairs, refused;
+  };
+
+  [[nodiscard]] std::uint32_t resolve(std::uint32_t cluster) const {
+    while (into_[cluster] != cluster) cluster = into_[cluster];
+    return cluster;
+  }
+  void choose_all(const MergeLimits& limits);
+  [[nodiscard]] bool is_stale(std::uint32_t cluster) const;
+  void note(std::uint32_t cluster);
+  void refresh_links(std::uint32_t cluster);
+  void choose(std::uint32_t cluster, const MergeLimits& limits);
   [[nodiscard]] float bound() const;
-  [[nodiscard]] std::uint32_t pair_up(const MergeLimits& limits, float bound);
-  [[nodiscard]] bool try_pair(std::uint32_t a, std::uint32_t b, bool discs);
-  void keep_cheapest(std::uint32_t wanted, std::uint32_t pairs);
+  [[nodiscard]] bool pair_up(const MergeLimits& limits, float bound);
+  [[nodiscard]] bool is_allowed(std::uint32_t a, std::uint32_t b, bool discs) const;
+  void refuse(std::uint32_t a, std::uint32_t b);
   [[nodiscard]] bool pair_cheapest(const MergeLimits& limits);
-  void contract();
-  void number_merged();
-  void merge_rows(ClusterGraph& merged, std::uint32_t a, std::uint32_t b);
+  void keep_cheapest(std::uint32_t wanted);
+  void merge_pairs();
+  void reserve_rows();
+  void compact();
+  void merge(const Pair& pair);
+  void merge_links(const Pair& pair);
+  [[nodiscard]] std::uint32_t merge_points(const Pair& pair);
 
   ClusterGraph graph_;
   int threads_;
-  std::vector<std::uint32_t> cluster_of_;
+  std::uint32_t round_ = 0;
+  std::vector<std::uint32_t> alive_;
+  LargeVector<std::uint32_t> into_;  // itself, or the cluster that it was merged into
   LargeVector<Choice> choices_;
-  LargeVector<std::uint32_t> mates_;     // kNone: stays
-  LargeVector<std::uint32_t> renumber_;  // to the clusters after the round
-  std::uint32_t merged_count_ = 0;
-  bool refused_any_ = false;
+  std::array<LargeVector<std::uint8_t>, 2> noted_;  // by odd and even rounds
+  std::vector<Pair> pairs_;
+  std::vector<Found> found_;  // by pieces of alive_
+  std::uint32_t used_links_ = 0, used_points_ = 0;
 };
 
 }  // namespace varifold

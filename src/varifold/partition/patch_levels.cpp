@@ -79,7 +79,7 @@ void merge_to(MergeRounds& rounds, std::uint32_t clusters, std::uint32_t triangl
   limits.max_triangles = static_cast<std::uint32_t>(std::min(std::ceil(cap), 4e9f));
   rounds.run(limits);
   limits.discs = false;
-  while (rounds.graph().size() > clusters) {
+  while (rounds.alive().size() > clusters) {
     rounds.run(limits);
     if (limits.max_triangles >= triangles) break;
     cap *= 1.25f;
@@ -117,12 +117,15 @@ PatchLevels make_levels(const SurfaceView& surface, Partition& partition, int th
   for (std::uint32_t c = 0; c < map.count; ++c) graph.shapes[c].euler = euler[c];
   link_components(surface, partition, graph);
 
-  while (graph.size() > 1) {
-    const std::uint32_t before = graph.size();
-    MergeRounds rounds(std::move(graph), threads);
-    merge_to(rounds, (before + 1) / 2, surface.triangle_count());
-    levels.parent.push_back(rounds.cluster_of());
-    graph = rounds.take_graph();
+  MergeRounds rounds(std::move(graph), threads);
+  std::vector<std::uint32_t> number(map.count);
+  while (rounds.alive().size() > 1) {
+    const std::vector<std::uint32_t> before = rounds.alive();
+    merge_to(rounds, static_cast<std::uint32_t>(before.size() + 1) / 2, surface.triangle_count());
+    for (std::uint32_t i = 0; i < rounds.alive().size(); ++i) number[rounds.alive()[i]] = i;
+    std::vector<std::uint32_t>& parent = levels.parent.emplace_back();
+    parent.reserve(before.size());
+    for (const std::uint32_t c : before) parent.push_back(number[rounds.cluster_of(c)]);
   }
   levels.parent.emplace_back(1, kNone);
   number_by_parents(levels, partition);

@@ -1,8 +1,10 @@
 #include <varifold/partition/patches.h>
 
+#include <varifold/partition/border_smoothing.h>
 #include <varifold/partition/cluster_graph.h>
 #include <varifold/partition/edge_links.h>
 #include <varifold/partition/merge_rounds.h>
+#include <varifold/partition/seed_clusters.h>
 #include <varifold/partition/small_regions.h>
 #include <varifold/partition/triangle_groups.h>
 #include <algorithm>
@@ -11,27 +13,35 @@ namespace varifold {
 
 namespace {
 
+// Patches of fewer triangles are merged from single ones.
+constexpr std::uint32_t kMinTrianglesForSeeds = 64;
+
 std::uint32_t max_triangles(std::uint32_t triangles_per_patch) {
   return static_cast<std::uint32_t>(
       std::min(kMaxPatchExcess * static_cast<float>(triangles_per_patch), 1e9f));
 }
 
-// Single triangles and glued ones, but for those of small regions; numbered as they come.
-std::uint32_t first_clusters(const TriangleGroups& glued, const TriangleGroups& small,
-                             std::vector<std::uint32_t>& cluster_of) {
+// Glued triangles and small clusters of the rest, but nothing of small regions. Returns how many.
+std::uint32_t first_clusters(const SurfaceView& surface, const EdgeLinks& links,
+                             const TriangleGroups& glued, const TriangleGroups& small,
+                             const PartitionOptions& options, std::span<std::uint32_t> cluster_of) {
+  constexpr std::uint32_t kSmall = kNone - 1;
   std::uint32_t count = 0;
   std::vector<std::uint32_t> cluster_of_group(glued.count, kNone);
   for (std::uint32_t t = 0; t < cluster_of.size(); ++t) {
-    cluster_of[t] = kNone;
-    if (small.of(t) != kNone) continue;
-    if (glued.of(t) == kNone) {
-      cluster_of[t] = count++;
-      continue;
-    }
+    cluster_of[t] = small.of(t) != kNone ? kSmall : kNone;
+    if (glued.of(t) == kNone || cluster_of[t] == kSmall) continue;
     std::uint32_t& cluster = cluster_of_group[glued.of(t)];
     if (cluster == kNone) cluster = count++;
     cluster_of[t] = cluster;
   }
+  if (options.triangles_per_patch >= kMinTrianglesForSeeds) {
+    count = seed_clusters(surface, links, cluster_of, count, options.threads);
+  } else {
+    for (std::uint32_t& cluster : cluster_of)
+      if (cluster == kNone) cluster = count++;
+  }
+  if (small.count > 0) std::replace(cluster_of.begin(), cluster_of.end(), kSmall, kNone);
   return count;
 }
 
@@ -53,9 +63,12 @@ void merge_clusters(const SurfaceView& surface, const EdgeLinks& links, const Cl
   rounds.run(limits);
   limits.discs = false;
   rounds.run(limits);
-  partition.patch_count = rounds.graph().size();
+  partition.patch_count = static_cast<std::uint32_t>(rounds.alive().size());
+  std::vector<std::uint32_t> patch_of(map.count);
+  for (std::uint32_t p = 0; p < partition.patch_count; ++p) patch_of[rounds.alive()[p]] = p;
+  for (std::uint32_t c = 0; c < map.count; ++c) patch_of[c] = patch_of[rounds.cluster_of(c)];
   for (std::uint32_t& entry : partition.patch_of)
-    if (entry != kNone) entry = rounds.cluster_of()[entry];
+    if (entry != kNone) entry = patch_of[entry];
 }
 
 void measure(const SurfaceView& surface, const EdgeLinks& links, Partition& partition) {
@@ -66,8 +79,8 @@ void measure(const SurfaceView& surface, const EdgeLinks& links, Partition& part
     if (g == kNone || g > h || partition.patch_of[g / 3] == partition.patch_of[h / 3]) continue;
     ++partition.border_edges;
     partition.border_length +=
-        glm::distance(surface.positions[surface.corners[h]],
-                      surface.positions[surface.corners[next_in_triangle(h)]]);
+        glm::distance(DVec3(surface.positions[surface.corners[h]]),
+                      DVec3(surface.positions[surface.corners[next_in_triangle(h)]]));
   }
 }
 
@@ -86,7 +99,8 @@ Partition make_patches(const SurfaceView& surface, const PartitionOptions& optio
       group_small_regions(surface, links, glued, options.triangles_per_patch);
 
   // Merge the rest, then number the patches of small regions behind.
-  const std::uint32_t clusters = first_clusters(glued, small, partition.patch_of);
+  const std::uint32_t clusters =
+      first_clusters(surface, links, glued, small, options, partition.patch_of);
   if (clusters > 0)
     merge_clusters(surface, links, {partition.patch_of, clusters}, options, partition);
   for (std::uint32_t t = 0; small.count > 0 && t < surface.triangle_count(); ++t)
@@ -94,6 +108,14 @@ Partition make_patches(const SurfaceView& surface, const PartitionOptions& optio
   partition.patch_count += small.count;
 
   measure(surface, links, partition);
+  partition.rough_border_edges = partition.border_edges;
+  partition.rough_border_length = partition.border_length;
+  if (options.smooth) {
+    const SmoothedPatches patches{partition.patch_of, partition.patch_count,
+                                  max_triangles(options.triangles_per_patch)};
+    partition.smoothing_rounds = smooth_borders(surface, links, patches, options.threads);
+    measure(surface, links, partition);
+  }
   for (const std::int32_t euler :
        euler_characteristics(surface, links, {partition.patch_of, partition.patch_count}))
     partition.non_discs += euler != 1;

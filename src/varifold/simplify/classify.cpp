@@ -140,7 +140,14 @@ EdgeUse edge_use(WorkingSurface& surface, std::uint32_t point, std::uint32_t nei
 void classify_points(WorkingSurface& surface, int threads) {
   parallel_for(threads, surface.point_count(), 4096, [&](std::size_t begin, std::size_t end) {
     for (auto p = static_cast<std::uint32_t>(begin); p < end; ++p)
-      if (!(surface.points[p].flags & PointState::kDead))
+      surface.points[p].kind = kind_of(surface, p);
+  });
+}
+
+void reclassify_points(WorkingSurface& surface, std::span<const std::uint32_t> live, int threads) {
+  parallel_for(threads, live.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    for (const std::uint32_t p : live.subspan(begin, end - begin))
+      if (surface.points[p].kind != VertexKind::kManifold)
         surface.points[p].kind = kind_of(surface, p);
   });
 }

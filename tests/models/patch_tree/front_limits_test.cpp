@@ -176,12 +176,7 @@ TEST(PatchFront, TakesAllCriteria) {
       const auto measure = frame % 5 == 0 ? PatchMeasure::kMeanSquared : PatchMeasure::kPixels;
       PatchFrontOptions options = options_of(0.5f, frame % 3 == 0 ? 2000 : kNone);
       options.measure = measure;
-      std::vector<float> priorities = oracle_priorities(*named.tree, criteria, measure);
-      if (measure == PatchMeasure::kMeanSquared)  // the oracle knows views only
-        for (std::uint32_t node = 0; node < tables->inner_count(); ++node)
-          if (criteria.is_placed_on(named.tree->data().bounds[node].ball,
-                                    named.tree->data().bounds[node].error))
-            priorities[node] = 1.5f * RefineCriteria::kFullDetail;
+      const auto priorities = oracle_priorities(*named.tree, criteria, measure);
       OracleStop stop;
       stop.tolerance = 0.5f;
       if (options.limits.max_triangles != kNone) stop.triangles = 2000;

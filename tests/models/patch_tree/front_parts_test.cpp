@@ -41,6 +41,8 @@ TEST(FrontPriorities, OfManyNodesAreThoseOfEachToTheBit) {
     std::vector<std::uint64_t> all(tables.word_count());
     for (std::uint32_t node = 0; node < tables.inner_count(); ++node)
       all[node / 64] |= 1ull << node % 64;
+    const std::vector<std::uint64_t> words((tables.word_count() + 63) / 64,
+                                           ~0ull >> (64 - std::max(1u, tables.word_count())));
     std::vector<float> many(tables.no_parent() + 1), narrow(many);
     for (std::uint32_t i = 0; i < 40; ++i) {
       RefineCriteria criteria;
@@ -51,9 +53,9 @@ TEST(FrontPriorities, OfManyNodesAreThoseOfEachToTheBit) {
       FrontPriorities priorities;
       EXPECT_TRUE(priorities.set(criteria, measure));
       EXPECT_FALSE(priorities.set(criteria, measure));
-      priorities.evaluate(tables, all, many);
+      priorities.evaluate({tables, words, all, many});
       const auto expected = oracle_priorities(*named.tree, criteria, measure);
-      FrontPriorities::Numbers numbers;
+      front_lanes::Numbers numbers;
       numbers.eye_x = criteria.view->eye.x;
       numbers.eye_y = criteria.view->eye.y;
       numbers.eye_z = criteria.view->eye.z;
@@ -64,10 +66,10 @@ TEST(FrontPriorities, OfManyNodesAreThoseOfEachToTheBit) {
         numbers.planes[p] = {plane.normal.x, plane.normal.y, plane.normal.z, plane.offset};
       }
       narrow.back() = HUGE_VALF;
-      front_lanes::evaluate_narrow(
-          static_cast<std::uint8_t>((i & 4u) / 4 + ((i & 1u) != 0 ? 0 : 2) +
-                                    ((i & 2u) != 0 ? 0 : 4)),
-          numbers, {tables, all, narrow});
+      const auto parts = static_cast<std::uint8_t>(((i & 4u) != 0 ? front_lanes::kMeanSquares : 0) +
+                                                   ((i & 1u) != 0 ? 0 : front_lanes::kCulls) +
+                                                   ((i & 2u) != 0 ? 0 : front_lanes::kTurns));
+      front_lanes::plain_functions_of(parts).evaluate(numbers, {tables, words, all, narrow});
       for (std::uint32_t node = 0; node < tables.inner_count(); ++node) {
         const std::uint32_t parent = tables.topology().parent[node];
         const float limit = parent == kNone ? HUGE_VALF : expected[parent];
@@ -93,6 +95,24 @@ TEST(FrontPriorities, OfManyNodesAreThoseOfEachToTheBit) {
   }
   EXPECT_GT(wide, 1000);
   EXPECT_GT(hidden, 1000);
+}
+
+TEST(FrontScan, FindsWhatIsWithin) {
+  Random random(47);
+  std::vector<float> priorities(64);
+  for (int round = 0; round < 500; ++round) {
+    for (float& p : priorities) p = random.below(9) == 0 ? HUGE_VALF : 0.1f * random.below(10);
+    std::uint64_t nodes = random.next();
+    if (round % 3 == 0) nodes &= 0xff0000ff00ff0000ull;
+    const front_scan::Window window{0.1f * random.below(10),
+                                    round % 2 == 0 ? HUGE_VALF : 0.1f * random.below(10)};
+    std::uint64_t expected = 0;
+    for (std::uint32_t i = 0; i < 64; ++i)
+      if ((nodes >> i & 1u) != 0 && priorities[i] > window.above && priorities[i] <= window.up_to)
+        expected |= 1ull << i;
+    ASSERT_EQ(front_scan::word_within(nodes, priorities.data(), window), expected);
+    ASSERT_EQ(front_scan::word_within_plain(nodes, priorities.data(), window), expected);
+  }
 }
 
 TEST(FrontQueue, GivesTheGreatestFirst) {

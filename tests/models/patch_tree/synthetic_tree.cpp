@@ -249,6 +249,13 @@ PatchTree make_tree(const LeafPatches& leaves, const Grouping& grouping,
       triangles[node] = options.leaf_triangles - spread + random.below(2 * spread + 1);
     }
   }
+  for (PatchBounds& bounds : data.bounds) {
+    if (options.nests || bounds.error == 0) continue;
+    bounds.ball.radius *= static_cast<float>(2 * random.uniform());
+    bounds.error *= static_cast<float>(2 * random.uniform());
+    bounds.mean_squared *= static_cast<float>(2 * random.uniform());
+    bounds.cone.axis = -bounds.cone.axis;
+  }
   data.offsets.resize(t.node_count() + 1);
   for (std::uint32_t node = 0; node < t.node_count(); ++node) {
     data.offsets[node + 1].triangle = data.offsets[node].triangle + triangles[node];
@@ -321,6 +328,7 @@ PatchTree irregular_tree(std::uint64_t seed) {
   options.seed = seed;
   options.leaf_triangles = 8 + random.below(100);
   options.error = 0.002f;
+  options.nests = seed % 4 != 0;
   return make_tree(leaves, grouping, options);
 }
 

@@ -26,9 +26,10 @@ struct SyntheticOptions {
   /// Of the patches just above the leaves; each level above has about twice that.
   float error = 1e-4f;
   std::uint64_t seed = 1;
+  bool nests = true;  ///< otherwise balls, errors and cones are anything at all
 };
 
-/// Neighbours are those that leaves give; balls nest, errors are saturated.
+/// Neighbours are those that leaves give; balls nest and errors are saturated.
 [[nodiscard]] PatchTree make_tree(const LeafPatches& leaves, const Grouping& grouping,
                                   const SyntheticOptions& options);
 

@@ -1,5 +1,7 @@
 #include <varifold/models/patch_tree/assemble.h>
 
+#include <varifold/base/parallel.h>
+#include <varifold/models/patch_tree/mean_value_map.h>
 #include <algorithm>
 #include <cmath>
 
@@ -25,6 +27,7 @@ class Assembler {
     tree_.vertices.materials = mesh_.materials;
     tree_.vertices.images = mesh_.images;
     number_nodes();
+    make_room();
     tree_.offsets.emplace_back();
     for (std::size_t l = levels_.size(); l-- > 0;) {
       add_blocks(l);
@@ -39,6 +42,7 @@ class Assembler {
     return tree_.topology.first_of_level[levels_.size() - 1 - level];
   }
   void number_nodes();
+  void make_room();
   void link_level(std::size_t level);
   void add_neighbors(std::size_t level);
   void add_blocks(std::size_t level);
@@ -68,6 +72,25 @@ void Assembler::number_nodes() {
   t.first_neighbor.push_back(0);
   for (std::size_t l = levels_.size(); l-- > 0;) link_level(l);
   t.first_child.push_back(t.node_count());
+}
+
+void Assembler::make_room() {
+  PatchOffsets sum;
+  for (const AssembledLevel& level : levels_) {
+    const PatchOffsets& end = level.blocks.offsets.back();
+    sum = {sum.vertex + end.vertex, sum.triangle + end.triangle, sum.controller + end.controller,
+           sum.range + end.range};
+  }
+  tree_.offsets.reserve(tree_.topology.node_count() + 1);
+  tree_.survivors.reserve(sum.vertex);
+  tree_.corners.reserve(3 * std::size_t{sum.triangle});
+  tree_.controllers.reserve(sum.controller);
+  tree_.ranges.reserve(sum.range);
+  TriangleMesh& vertices = tree_.vertices;
+  vertices.positions.reserve(sum.vertex);
+  if (mesh_.has_normals()) vertices.normals.reserve(sum.vertex);
+  if (mesh_.has_texcoords()) vertices.texcoords.reserve(sum.vertex);
+  if (mesh_.has_colors()) vertices.colors.reserve(sum.vertex);
 }
 
 void Assembler::link_level(std::size_t level) {
@@ -265,6 +288,52 @@ void add_errors(AssembledLevel& level, const LevelErrors& errors, const WorkingS
   level.mean_squared_of_parent.resize(parents);
   for (std::uint32_t p = 0; p < parents; ++p)
     level.mean_squared_of_parent[p] = static_cast<float>(sum[p] / std::max(1u, count[p]));
+}
+
+void add_mean_value_errors(AssembledLevel& level, const LevelErrors& errors,
+                           const WorkingSurface& surface, int threads) {
+  const LevelBlocks& blocks = level.blocks;
+  const std::uint32_t parents = level.parent.back() + 1;
+  const std::vector<std::uint32_t> first_child = first_children(level, parents);
+  const auto point_of = [&](std::uint32_t wedge) {
+    return surface.wedge.has_seams() ? surface.wedge.point_of[wedge] : wedge;
+  };
+  parallel_for(threads, parents, 1, [&](std::size_t parent, std::size_t) {
+    // The points of all children, each once.
+    std::vector<std::uint32_t> points;
+    for (std::uint32_t v = blocks.offsets[first_child[parent]].vertex;
+         v < blocks.offsets[first_child[parent + 1]].vertex; ++v)
+      points.push_back(point_of(blocks.wedges[v]));
+    std::sort(points.begin(), points.end());
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    std::vector<Vec3> positions;
+    for (const std::uint32_t p : points) positions.push_back(surface.points[p].position);
+    const auto local = [&](std::uint32_t point) {
+      return static_cast<std::uint32_t>(std::lower_bound(points.begin(), points.end(), point) -
+                                        points.begin());
+    };
+    std::vector<std::uint32_t> corners;
+    std::vector<std::uint8_t> is_locked(points.size(), 0);
+    for (std::uint32_t c = first_child[parent]; c < first_child[parent + 1]; ++c) {
+      const PatchOffsets &at = blocks.offsets[c], &end = blocks.offsets[c + 1];
+      for (std::uint32_t i = 3 * at.triangle; i < 3 * end.triangle; ++i)
+        corners.push_back(local(point_of(blocks.wedges[at.vertex + blocks.corners[i]])));
+      for (std::uint32_t v = at.vertex; v < end.vertex; ++v)
+        if (point_of(blocks.survivors[v]) == point_of(blocks.wedges[v]))
+          is_locked[local(point_of(blocks.wedges[v]))] = 1;
+    }
+    std::vector<float> squared(points.size());
+    map_by_mean_values({corners, positions, is_locked}, squared);
+    double sum = 0;
+    std::uint32_t count = 0;
+    for (std::uint32_t v = blocks.offsets[first_child[parent]].vertex;
+         v < blocks.offsets[first_child[parent + 1]].vertex; ++v, ++count) {
+      const std::uint32_t point = point_of(blocks.wedges[v]);
+      const float mapped = squared[local(point)];
+      sum += mapped >= 0 ? mapped : errors.squared_step(point);
+    }
+    level.mean_squared_of_parent[parent] = static_cast<float>(sum / std::max(1u, count));
+  });
 }
 
 PatchTreeData assemble(const TriangleMesh& mesh, const WorkingSurface& surface,

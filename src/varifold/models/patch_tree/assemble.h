@@ -29,6 +29,11 @@ struct AssembledLevel {
 /// the blocks, the surface is that after. O(vertices).
 void add_errors(AssembledLevel& level, const LevelErrors& errors, const WorkingSurface& surface);
 
+/// The same for the mean squares alone, by mean value coordinates; vertices that these have no
+/// place for count as they did. O(vertices x rounds).
+void add_mean_value_errors(AssembledLevel& level, const LevelErrors& errors,
+                           const WorkingSurface& surface, int threads);
+
 /// Numbers the nodes, gathers vertices, and nests bounds and errors. `levels` run from the leaves
 /// on. O(size of the tree).
 [[nodiscard]] PatchTreeData assemble(const TriangleMesh& mesh, const WorkingSurface& surface,

@@ -3,6 +3,7 @@
 #include <varifold/models/patch_tree/patch_tree.h>
 #include <varifold/simplify/classify.h>
 #include <algorithm>
+#include <array>
 
 namespace varifold {
 
@@ -10,6 +11,30 @@ namespace {
 
 // The cosine of the greatest turn of a triangle by a switch: that of any collapse.
 constexpr float kMinCosine = 0.2588f;
+// 2 * area / longest edge^2 of a switched triangle, unless it was below before.
+constexpr float kMinShape = 1e-3f;
+
+using Corners = std::array<Vec3, 3>;
+
+float shape_of(const Corners& p, float doubled_area_squared) {
+  const Vec3 a = p[1] - p[0], b = p[2] - p[1], c = p[0] - p[2];
+  const float longest = std::max({glm::dot(a, a), glm::dot(b, b), glm::dot(c, c)});
+  return longest > 0 ? doubled_area_squared / (longest * longest) : 0;
+}
+
+// Whether a triangle turns by 75 degrees at most, and is no needle then unless it was one.
+bool keeps_shape(const Corners& before, const Corners& after) {
+  const Vec3 old_normal = glm::cross(before[1] - before[0], before[2] - before[0]);
+  const Vec3 new_normal = glm::cross(after[1] - after[0], after[2] - after[0]);
+  const float old_square = glm::dot(old_normal, old_normal);
+  const float new_square = glm::dot(new_normal, new_normal);
+  const float cosine = glm::dot(old_normal, new_normal);
+  if (old_square > 0 &&
+      (cosine <= 0 || (cosine / old_square) * (cosine / new_square) < kMinCosine * kMinCosine))
+    return false;
+  const float shape = shape_of(after, new_square);
+  return shape >= kMinShape * kMinShape || shape >= shape_of(before, old_square);
+}
 
 std::pair<std::uint32_t, std::uint32_t> sorted_pair(std::uint32_t a, std::uint32_t b) {
   return a < b ? std::pair(a, b) : std::pair(b, a);
@@ -23,15 +48,13 @@ void sort_unique(std::vector<T>& values) {
 
 }  // namespace
 
-void BorderGuard::begin_level(const BorderLocks& locks) {
-  border_of_.assign(surface_.point_count(), kNone);
+void BorderGuard::begin_level(const BorderLocks& locks, std::span<const std::uint32_t> live) {
+  for (const BorderPoint& p : points_) border_of_[p.point] = kNone;
   points_.clear();
   star_.clear();
   forbidden_ = locks.edges;
-  for (std::uint32_t p = 0; p < surface_.point_count(); ++p) {
-    const PointState& state = surface_.points[p];
-    if (!(state.flags & PointState::kDead) && state.kind != VertexKind::kManifold) add_point(p);
-  }
+  for (const std::uint32_t p : live)
+    if (surface_.points[p].kind != VertexKind::kManifold) add_point(p);
   limit_controllers();
   for (const std::uint32_t p : locks.points) surface_.points[p].kind = VertexKind::kCorner;
 }
@@ -168,7 +191,7 @@ bool BorderGuard::is_sound(std::uint32_t target, std::uint32_t region) {
   const int fans = count_fans(target, region, mixture);
   if (fans < 0 || !gather_controllers(target, region, mixture)) return false;
   for (mixture.coarse = 1; mixture.coarse < 1u << mixture.count; ++mixture.coarse)
-    if (count_fans(target, region, mixture) != fans || !keeps_normals(target, region, mixture))
+    if (count_fans(target, region, mixture) != fans || !keeps_shapes(target, region, mixture))
       return false;
   return true;
 }
@@ -212,8 +235,8 @@ int BorderGuard::count_paths() {
   return walked == size ? paths : -1;
 }
 
-bool BorderGuard::keeps_normals(std::uint32_t target, std::uint32_t region,
-                                const Mixture& mixture) const {
+bool BorderGuard::keeps_shapes(std::uint32_t target, std::uint32_t region,
+                               const Mixture& mixture) const {
   for (std::uint32_t i = target; i != kNone; i = points_[i].next) {
     const std::uint32_t apex = points_[i].point;
     const std::uint32_t new_apex = image(apex, region, mixture);
@@ -223,15 +246,8 @@ bool BorderGuard::keeps_normals(std::uint32_t target, std::uint32_t region,
       const std::uint32_t to = image(face.to, region, mixture);
       if (from == to || from == new_apex || to == new_apex) continue;
       if (from == face.from && to == face.to && new_apex == apex) continue;
-      const Vec3 before =
-          glm::cross(position(face.from) - position(apex), position(face.to) - position(apex));
-      const Vec3 after =
-          glm::cross(position(from) - position(new_apex), position(to) - position(new_apex));
-      const float square = glm::dot(before, before);
-      const float cosine = glm::dot(before, after);
-      if (square == 0) continue;
-      if (cosine <= 0 ||
-          (cosine / square) * (cosine / glm::dot(after, after)) < kMinCosine * kMinCosine)
+      if (!keeps_shape({position(apex), position(face.from), position(face.to)},
+                       {position(new_apex), position(from), position(to)}))
         return false;
     }
   }
@@ -323,12 +339,22 @@ void BorderGuard::find_new_chords(std::uint32_t border) {
   }
 }
 
+// Whether K had the edge in that region: then all that show it show one edge of K.
+bool BorderGuard::was_edge(const Chord& chord) const {
+  const std::uint32_t other = points_[chord.b].point;
+  const auto faces = star(points_[chord.a]);
+  return std::any_of(faces.begin(), faces.end(), [&](const StarFace& face) {
+    return face.region == chord.needs[0].region && (face.from == other || face.to == other);
+  });
+}
+
 // Whether two regions may show the same edge at one time, not as their common border.
-bool BorderGuard::clash(const Chord& x, const Chord& y) {
+bool BorderGuard::clash(const Chord& x, const Chord& y) const {
   if (x.needs[0].region == y.needs[0].region) return false;  // fans tell
   if (x.is_border() && y.is_border()) return false;
   if (x.is_border() && x.beyond == y.needs[0].region) return false;
   if (y.is_border() && y.beyond == x.needs[0].region) return false;
+  if (std::minmax(x.a, x.b) == std::minmax(y.a, y.b) && was_edge(x) && was_edge(y)) return false;
   for (const Need& a : x.needs)
     for (const Need& b : y.needs)
       if (a.region != kNone && a.region == b.region && a.coarse != b.coarse) return false;

@@ -28,17 +28,18 @@ struct BorderLocks {
 class BorderGuard final : public CollapseGuard {
  public:
   /// `surface` outlives the guard.
-  explicit BorderGuard(WorkingSurface& surface) : surface_(surface) {}
+  explicit BorderGuard(WorkingSurface& surface)
+      : surface_(surface), border_of_(surface.point_count(), kNone) {}
 
   /// The surface stands at the beginning of a level, with its regions and kinds. Points in
-  /// `locks` become corners. O(points).
-  void begin_level(const BorderLocks& locks);
+  /// `locks` become corners. `live` are the points that are left. O(live points).
+  void begin_level(const BorderLocks& locks, std::span<const std::uint32_t> live);
 
   /// After begin_level(): no point of a border moves. O(points on borders).
   void lock_all();
 
   [[nodiscard]] bool watches(std::uint32_t point) const override {
-    return border_of_[point] != kNone;
+    return surface_.points[point].kind != VertexKind::kManifold && border_of_[point] != kNone;
   }
   [[nodiscard]] bool allows(std::uint32_t from, std::uint32_t onto) override;
   void collapsed(std::uint32_t from, std::uint32_t onto) override;
@@ -110,8 +111,8 @@ class BorderGuard final : public CollapseGuard {
   [[nodiscard]] std::uint32_t image(std::uint32_t point, std::uint32_t region,
                                     const Mixture& mixture) const;
   [[nodiscard]] int count_fans(std::uint32_t target, std::uint32_t region, const Mixture& mixture);
-  [[nodiscard]] bool keeps_normals(std::uint32_t target, std::uint32_t region,
-                                   const Mixture& mixture) const;
+  [[nodiscard]] bool keeps_shapes(std::uint32_t target, std::uint32_t region,
+                                  const Mixture& mixture) const;
   [[nodiscard]] int count_paths();
   [[nodiscard]] std::span<const StarFace> star(const BorderPoint& p) const {
     return {star_.data() + p.first_face, star_.data() + p.last_face};
@@ -123,7 +124,8 @@ class BorderGuard final : public CollapseGuard {
   void find_chords(std::uint32_t border, bool all);
   [[nodiscard]] bool is_free_of_clashes(std::uint32_t corner);
   void find_new_chords(std::uint32_t border);
-  [[nodiscard]] static bool clash(const Chord& x, const Chord& y);
+  [[nodiscard]] bool was_edge(const Chord& chord) const;
+  [[nodiscard]] bool clash(const Chord& x, const Chord& y) const;
   [[nodiscard]] bool lock_chords(BorderLocks& locks);
 
   WorkingSurface& surface_;

@@ -17,9 +17,16 @@
 
 namespace varifold {
 
+/// How far a patch is from its children, for the paper's priority.
+enum class PatchPriority {
+  kClosestPoint,  ///< from each vertex that goes to the nearest place of the coarse surface
+  kMeanValue,     ///< to its image by mean value coordinates, as in the paper (mean_value_map.h)
+};
+
 struct PatchTreeOptions {
   std::uint32_t triangles_per_patch = 512;  ///< the mean, at every level; at least 1
   bool smooth_borders = true;
+  PatchPriority priority = PatchPriority::kClosestPoint;
   AttributeWeights attributes;
   int threads = 0;  ///< 0 = all; the result does not depend on it
   Progress progress;
@@ -35,8 +42,9 @@ struct PatchTreeReport {
   TreeStop stop = TreeStop::kOneRoot;
   InputFaults faults;
   std::uint32_t non_disc_leaves = 0;
-  std::uint32_t reruns = 0;         ///< of levels, because a mixture of patches was unsound
-  std::uint32_t locked_points = 0;  ///< for that reason
+  std::uint32_t reruns = 0;           ///< of levels, because a mixture of patches was unsound
+  std::uint32_t locked_points = 0;    ///< for that reason
+  std::uint32_t vanished_points = 0;  ///< of components that went as a whole
   std::vector<std::uint32_t> level_triangles;  ///< from the leaves on
   std::vector<std::uint32_t> level_patches;
   double partition_seconds = 0, halving_seconds = 0, layout_seconds = 0, error_seconds = 0;

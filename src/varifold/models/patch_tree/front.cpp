@@ -94,7 +94,7 @@ void PatchFront::go_to_level(std::uint32_t level) {
     set_.want(node);
   }
   is_settled_ = false;
-  draws_.follow(set_.split());
+  draws_.follow(set_);
 }
 
 // What is no longer wanted is merged, what is wanted is split: above the priority where the last
@@ -103,7 +103,7 @@ PatchFrontResult PatchFront::adapt(const RefineCriteria& criteria,
                                    const PatchFrontOptions& options) {
   Frame frame(options, cut_);
   if (!begin(criteria, options)) {
-    draws_.follow(set_.split());
+    draws_.follow(set_);
     result_.statistics.splits = result_.statistics.collapses = 0;
     return result_;
   }
@@ -234,7 +234,7 @@ PatchFrontResult PatchFront::end(const Frame& frame) {
   const bool is_cut = frame.stop != FrontStop::kTolerance;
   cut_ = frame.cut;
   is_settled_ = frame.stop == FrontStop::kTolerance || frame.stop == FrontStop::kTriangles;
-  draws_.follow(set_.split());
+  draws_.follow(set_);
   result_.stop = frame.stop;
   result_.is_over_budget = set_.triangles() > frame.budget;
   result_.not_resident = frame.not_resident;

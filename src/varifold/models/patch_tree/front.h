@@ -27,7 +27,8 @@ struct PatchFrontOptions {
   AdaptOptions limits;
   PatchMeasure measure = PatchMeasure::kPixels;
   std::uint32_t max_splits = kNone;  ///< in a call; merges are not counted
-  float max_microseconds = 0;        ///< of splitting, in a call; 0: no limit
+  /// After the call began, no more is split; a few splits are always done. 0: no limit.
+  float max_microseconds = 0;
   ResidentChildren resident;
 };
 

@@ -1,7 +1,6 @@
 #include <varifold/models/patch_tree/front_draws.h>
 
 #include <algorithm>
-#include <bit>
 
 namespace varifold {
 
@@ -14,11 +13,12 @@ FrontDraws::FrontDraws(const FrontTables& tables)
   for (std::uint32_t root = 0; root < tables.root_count(); ++root) add(root, 0);
 }
 
-void FrontDraws::follow(std::span<const std::uint64_t> split) {
+void FrontDraws::follow(FrontSet& set) {
   for (const std::uint32_t slot : changed_) touched_[slot] = 0;
   changed_.clear();
   switched_.clear();
-  find_changed_nodes(split);
+  find_changed_nodes(set);
+  set.forget_changes();
   // Masks first: draws that come get theirs from the parent.
   for (const std::uint32_t node : nodes_) change_masks(node);
   for (const std::uint32_t node : nodes_) change_members(node);
@@ -42,20 +42,19 @@ void FrontDraws::follow(std::span<const std::uint64_t> split) {
   changed_.erase(std::remove_if(changed_.begin(), changed_.end(), is_gone), changed_.end());
 }
 
-void FrontDraws::find_changed_nodes(std::span<const std::uint64_t> split) {
+void FrontDraws::find_changed_nodes(const FrontSet& set) {
   nodes_.clear();
   splits_ = 0;
-  for (std::size_t word = 0; word < split.size(); ++word) {
-    for (std::uint64_t rest = split_[word] ^ split[word]; rest != 0; rest &= rest - 1) {
-      const auto bit = static_cast<std::uint32_t>(std::countr_zero(rest));
-      const auto node = static_cast<std::uint32_t>(64 * word + bit);
-      const bool is_now = (split[word] >> bit & 1u) != 0;
+  front_bits::for_each(set.changed_words(), [&](std::uint32_t word) {
+    const std::uint64_t now = set.split()[word];
+    front_bits::for_each_of_word(split_[word] ^ now, word, [&](std::uint32_t node) {
+      const bool is_now = (now >> node % 64 & 1u) != 0;
       nodes_.push_back(node);
       is_new_[node] = is_now ? 1 : 0;
       splits_ += is_now ? 1 : 0;
-    }
-    split_[word] = split[word];
-  }
+    });
+    split_[word] = now;
+  });
   merges_ = static_cast<std::uint32_t>(nodes_.size()) - splits_;
 }
 

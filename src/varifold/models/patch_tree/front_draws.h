@@ -5,6 +5,8 @@
 //   (patch_tree.h); kept up by what changes.
 #pragma once
 
+#include <varifold/models/patch_tree/front_bits.h>
+#include <varifold/models/patch_tree/front_set.h>
 #include <varifold/models/patch_tree/front_tables.h>
 #include <cstddef>
 #include <cstdint>
@@ -23,15 +25,15 @@ struct PatchDraw {
 };
 
 /// The draws of a set of split nodes, in slots that draws keep as long as they can. The order of
-/// the slots depends on what came before, the set of draws does not. 4 bytes a node and 12 an inner
+/// the slots depends on what came before, the set of draws does not. 4 bytes a node and 5 an inner
 /// node; allocates in the constructor, and where a front is greater than any before.
 class FrontDraws {
  public:
   explicit FrontDraws(const FrontTables& tables);
 
-  /// Follows a closed set, with a bit for each inner node. O(inner nodes / 64) and O(neighbours +
+  /// Follows a set, and has it forget its changes: it is the only one that does. O(neighbours +
   /// children) for each node that is now split and was not, or the other way round.
-  void follow(std::span<const std::uint64_t> split);
+  void follow(FrontSet& set);
 
   [[nodiscard]] std::span<const PatchDraw> draws() const { return draws_; }
   /// Slots whose draw is another one than before the last follow(), each once; those beyond the
@@ -52,9 +54,9 @@ class FrontDraws {
 
  private:
   [[nodiscard]] bool is_split(std::uint32_t node) const {
-    return node < tables_->inner_count() && (split_[node / 64] >> node % 64 & 1u) != 0;
+    return node < tables_->inner_count() && front_bits::has(split_, node);
   }
-  void find_changed_nodes(std::span<const std::uint64_t> split);
+  void find_changed_nodes(const FrontSet& set);
   void change_masks(std::uint32_t node);
   void change_members(std::uint32_t node);
   void add(std::uint32_t node, std::uint32_t mask);

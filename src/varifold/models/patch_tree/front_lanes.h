@@ -1,42 +1,50 @@
 // Priorities of plain views for many nodes at once.
 #pragma once
 
-#include <varifold/models/patch_tree/front_priorities.h>
+#include <varifold/models/patch_tree/front_tables.h>
+#include <varifold/view/frustum.h>
+#include <array>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 namespace varifold::front_lanes {
 
+/// What a view asks of all nodes.
+struct Numbers {
+  float eye_x = 0, eye_y = 0, eye_z = 0, focal = 0, near_distance = 0;
+  std::array<std::array<float, 4>, Frustum::kSideCount> planes = {};
+  bool operator==(const Numbers&) const = default;
+};
+
+/// Existing nodes: the words of `exists` are empty but for `words`, a set of words.
 struct Nodes {
   const FrontTables& tables;
-  std::span<const std::uint64_t> exists;
+  std::span<const std::uint64_t> words, exists;
   std::span<float> priorities;
 };
+/// Children of one node, whose priority is `limit`.
 struct Run {
   std::uint32_t first, count;
   float limit;
   std::span<float> priorities;
 };
 
-/// FrontPriorities::evaluate() for plain views; `parts` are the bits 1: mean squares, 2: culls what
-/// is outside, 4: what is turned away.
-void evaluate(std::uint8_t parts, const FrontPriorities::Numbers& numbers, const Nodes& nodes);
-/// The same without vectors of eight.
-void evaluate_narrow(std::uint8_t parts, const FrontPriorities::Numbers& numbers,
-                     const Nodes& nodes);
-void evaluate_run(std::uint8_t parts, const FrontPriorities::Numbers& numbers,
-                  const FrontTables& tables, const Run& run);
-
-/// Of the nodes of `among` those whose priority is above `tolerance`, into `above`.
-void find_above(std::span<const std::uint64_t> among, std::span<const float> priorities,
-                float tolerance, std::span<std::uint64_t> above);
-/// Adds the nodes of `among`, but not of `except`, with `above` < priority <= `up_to`, ascending.
-struct Window {
-  float above, up_to;
+/// What differs between views is compiled in: sums of these.
+enum Part : std::uint8_t {
+  kMeanSquares = 1,  ///< PatchMeasure::kMeanSquared
+  kCulls = 2,        ///< what is outside
+  kTurns = 4,        ///< what is turned away
+  kPartSets = 8,
 };
-void collect(std::span<const std::uint64_t> among, std::span<const std::uint64_t> except,
-             std::span<const float> priorities, const Window& window,
-             std::vector<std::uint32_t>& nodes);
+
+/// See FrontPriorities.
+struct Functions {
+  void (*evaluate)(const Numbers& numbers, const Nodes& nodes);
+  void (*evaluate_run)(const Numbers& numbers, const FrontTables& tables, const Run& run);
+};
+/// With the vectors that the machine has.
+[[nodiscard]] const Functions& functions_of(std::uint8_t parts);
+/// With those that every machine has; the same results.
+[[nodiscard]] const Functions& plain_functions_of(std::uint8_t parts);
 
 }  // namespace varifold::front_lanes

@@ -1,7 +1,6 @@
 #include <varifold/models/patch_tree/front_priorities.h>
 
-#include <varifold/models/patch_tree/front_lanes.h>
-#include <bit>
+#include <varifold/models/patch_tree/front_bits.h>
 #include <cmath>
 #include <limits>
 
@@ -27,8 +26,8 @@ bool is_sound(const ViewCriterion& view) {
   return is_finite(view.eye) && std::isfinite(focal) && focal > 0;
 }
 
-FrontPriorities::Numbers numbers_of(const ViewCriterion& view) {
-  FrontPriorities::Numbers numbers;
+front_lanes::Numbers numbers_of(const ViewCriterion& view) {
+  front_lanes::Numbers numbers;
   numbers.eye_x = view.eye.x;
   numbers.eye_y = view.eye.y;
   numbers.eye_z = view.eye.z;
@@ -57,18 +56,19 @@ bool FrontPriorities::set(const RefineCriteria& criteria, PatchMeasure measure) 
       criteria.sphere || criteria.plane || !criteria.boxes.empty() || criteria.predicate != nullptr;
   const bool sees = criteria.view && is_sound(*criteria.view);
   const bool plain = sees && !has_places && is_plain(*criteria.view);
-  std::uint8_t parts = measure == PatchMeasure::kMeanSquared ? kMeanSquares : 0;
-  Numbers numbers;
+  std::uint8_t parts = measure == PatchMeasure::kMeanSquared ? front_lanes::kMeanSquares : 0;
+  front_lanes::Numbers numbers;
   if (plain) {
     numbers = numbers_of(*criteria.view);
-    if (criteria.view->outside_weight == 0) parts |= kCulls;
-    if (criteria.view->back_weight == 0) parts |= kTurns;
+    if (criteria.view->outside_weight == 0) parts |= front_lanes::kCulls;
+    if (criteria.view->back_weight == 0) parts |= front_lanes::kTurns;
   }
   const bool same = is_set_ && plain && is_plain_ && parts == parts_ && numbers == numbers_;
   if (same) return false;
   is_set_ = true;
   is_plain_ = plain;
   parts_ = parts;
+  functions_ = front_lanes::functions_of(parts);
   numbers_ = numbers;
   measure_ = measure;
   boxes_.assign(criteria.boxes.begin(), criteria.boxes.end());
@@ -91,27 +91,26 @@ float FrontPriorities::evaluate_singly(const PatchBounds& bounds, float limit) c
   return limit < own ? limit : own;
 }
 
-void FrontPriorities::evaluate(const FrontTables& tables, std::span<const std::uint64_t> exists,
-                               std::span<float> priorities) const {
-  priorities[tables.no_parent()] = std::numeric_limits<float>::infinity();
+void FrontPriorities::evaluate(const front_lanes::Nodes& nodes) const {
+  const FrontTables& tables = nodes.tables;
+  nodes.priorities[tables.no_parent()] = std::numeric_limits<float>::infinity();
   if (is_plain_) {
-    front_lanes::evaluate(parts_, numbers_, {tables, exists, priorities});
+    functions_.evaluate(numbers_, nodes);
     return;
   }
-  for (std::uint32_t word = 0; word < exists.size(); ++word) {
-    for (std::uint64_t rest = exists[word]; rest != 0; rest &= rest - 1) {
-      const std::uint32_t node = 64 * word + static_cast<std::uint32_t>(std::countr_zero(rest));
-      const float limit = priorities[tables.lanes().parent[node]];
-      priorities[node] = evaluate_singly(tables.tree().data().bounds[node], limit);
-    }
-  }
+  front_bits::for_each(nodes.words, [&](std::uint32_t word) {
+    front_bits::for_each_of_word(nodes.exists[word], word, [&](std::uint32_t node) {
+      const float limit = nodes.priorities[tables.lanes().parent[node]];
+      nodes.priorities[node] = evaluate_singly(tables.tree().data().bounds[node], limit);
+    });
+  });
 }
 
 void FrontPriorities::evaluate_children(const FrontTables& tables, std::uint32_t first,
                                         std::uint32_t count, float limit,
                                         std::span<float> priorities) const {
   if (is_plain_) {
-    front_lanes::evaluate_run(parts_, numbers_, tables, {first, count, limit, priorities});
+    functions_.evaluate_run(numbers_, tables, {first, count, limit, priorities});
     return;
   }
   for (std::uint32_t node = first; node < first + count; ++node)

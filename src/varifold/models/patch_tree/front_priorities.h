@@ -6,9 +6,9 @@
 //   fronts do not depend on how they are reached.
 #pragma once
 
+#include <varifold/models/patch_tree/front_lanes.h>
 #include <varifold/models/patch_tree/front_tables.h>
 #include <varifold/view/criteria.h>
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -29,20 +29,12 @@ enum class PatchMeasure : std::uint8_t {
 /// bit where both can.
 class FrontPriorities {
  public:
-  /// What a plain view asks of its lanes.
-  struct Numbers {
-    float eye_x = 0, eye_y = 0, eye_z = 0, focal = 0, near_distance = 0;
-    std::array<std::array<float, 4>, Frustum::kSideCount> planes = {};
-    bool operator==(const Numbers&) const = default;
-  };
-
   /// False where nothing differs from the call before, so that all priorities are the same.
   [[nodiscard]] bool set(const RefineCriteria& criteria, PatchMeasure measure);
 
-  /// Of all nodes of `exists`, a set with every node's parent; priorities of other nodes may be
-  /// written, too. `priorities` has FrontTables::no_parent() + 1 elements. 1 ns a node.
-  void evaluate(const FrontTables& tables, std::span<const std::uint64_t> exists,
-                std::span<float> priorities) const;
+  /// Of existing nodes, with each its parent; priorities of other nodes may be written, too. There
+  /// are FrontTables::no_parent() + 1 of them. 2 ns a node.
+  void evaluate(const front_lanes::Nodes& nodes) const;
   /// Of `count` children whose parent has priority `limit`.
   void evaluate_children(const FrontTables& tables, std::uint32_t first, std::uint32_t count,
                          float limit, std::span<float> priorities) const;
@@ -50,14 +42,13 @@ class FrontPriorities {
   [[nodiscard]] float evaluate_singly(const PatchBounds& bounds, float limit) const;
 
  private:
-  enum Part : std::uint8_t { kMeanSquares = 1, kCulls = 2, kTurns = 4, kPartSets = 8 };
-
   RefineCriteria criteria_;
   std::vector<BoxCriterion> boxes_;
   PatchMeasure measure_ = PatchMeasure::kPixels;
   bool is_plain_ = false, is_set_ = false;
   std::uint8_t parts_ = 0;
-  Numbers numbers_;
+  front_lanes::Functions functions_ = {};  // where it is plain
+  front_lanes::Numbers numbers_;
 };
 
 }  // namespace varifold

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <varifold/base/math.h>
+#include <varifold/models/patch_tree/front_bits.h>
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -24,18 +25,18 @@ using FrontKey = std::uint64_t;
   return ~static_cast<std::uint32_t>(key);
 }
 
-/// Buckets of 1/128 octave are lists; the highest one is a heap while it is emptied, so that the
-/// order is exact at the cost of small heaps. Allocates only where a bucket holds more nodes than
-/// any before.
+/// Buckets of 1/256 octave are lists; the highest one is a heap while it is emptied, so that the
+/// order is exact at the cost of small heaps. Priorities below 2^-40 and from 2^24 on share a
+/// bucket. Allocates only where a bucket holds more nodes than any before.
 class FrontQueue {
  public:
   explicit FrontQueue(std::uint32_t nodes) : heads_(kBuckets, kNone), next_(nodes), keys_(nodes) {}
 
-  /// A node that is not in the queue; its priority is not negative, not NaN, and not above that of
-  /// the last one that was popped.
+  /// A node that is not in the queue; its priority is neither negative nor NaN. In any order, but
+  /// quick where it is not above the one that was popped last.
   void push(float priority, std::uint32_t node) {
     const FrontKey key = front_key(priority, node);
-    const auto bucket = static_cast<std::uint32_t>(key >> kShift);
+    const std::uint32_t bucket = bucket_of(key);
     ++size_;
     if (bucket >= open_bucket_) {
       open_.push_back(key);
@@ -45,8 +46,8 @@ class FrontQueue {
     keys_[node] = static_cast<std::uint32_t>(key >> 32u);
     next_[node] = heads_[bucket];
     heads_[bucket] = node;
-    filled_[bucket / 64] |= 1ull << bucket % 64;
-    filled_words_[bucket / 4096] |= 1ull << bucket / 64 % 64;
+    front_bits::add(filled_, bucket);
+    front_bits::add(filled_words_, bucket / 64);
   }
 
   [[nodiscard]] bool empty() const { return size_ == 0; }
@@ -61,14 +62,15 @@ class FrontQueue {
     return node;
   }
   void clear() {
-    while (size_ > open_.size()) {
-      size_ -= static_cast<std::uint32_t>(open_.size());
-      open_.clear();
-      open_highest();
-    }
+    front_bits::for_each(filled_words_, [&](std::uint32_t word) {
+      front_bits::for_each_of_word(filled_[word], word,
+                                   [&](std::uint32_t bucket) { heads_[bucket] = kNone; });
+      filled_[word] = 0;
+    });
+    filled_words_.fill(0);
     open_.clear();
-    size_ = 0;
     open_bucket_ = kBuckets;
+    size_ = 0;
   }
   [[nodiscard]] std::size_t bytes() const {
     return sizeof(*this) + (heads_.size() + next_.size() + keys_.size()) * sizeof(std::uint32_t) +
@@ -76,8 +78,13 @@ class FrontQueue {
   }
 
  private:
-  static constexpr std::uint32_t kShift = 32 + 16;
-  static constexpr std::uint32_t kBuckets = 1u << 15u;
+  static constexpr std::uint32_t kBucketsPerOctave = 256, kBuckets = 64 * kBucketsPerOctave;
+  static constexpr std::uint32_t kLowest = (127 - 40) * kBucketsPerOctave;
+
+  [[nodiscard]] static std::uint32_t bucket_of(FrontKey key) {
+    const auto bucket = static_cast<std::uint32_t>(key >> (32u + 23u - 8u));
+    return std::clamp(bucket, kLowest, kLowest + kBuckets - 1) - kLowest;
+  }
 
   void open_highest() {
     std::size_t i = filled_words_.size() - 1;
@@ -89,8 +96,8 @@ class FrontQueue {
       open_.push_back(static_cast<FrontKey>(keys_[node]) << 32u | ~node);
     std::make_heap(open_.begin(), open_.end());
     heads_[open_bucket_] = kNone;
-    filled_[word] &= ~(1ull << open_bucket_ % 64);
-    if (filled_[word] == 0) filled_words_[i] &= ~(1ull << word % 64);
+    front_bits::remove(filled_, open_bucket_);
+    if (filled_[word] == 0) front_bits::remove(filled_words_, word);
   }
 
   std::vector<std::uint32_t> heads_, next_, keys_;  // per bucket; per node: the rest of its list

@@ -4,8 +4,11 @@
 // Differs: marks are bits; a count of dependants says when a node may be merged.
 #pragma once
 
+#include <varifold/models/patch_tree/front_bits.h>
 #include <varifold/models/patch_tree/front_priorities.h>
+#include <varifold/models/patch_tree/front_scan.h>
 #include <varifold/models/patch_tree/front_tables.h>
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -31,23 +34,25 @@ class FrontSet {
  public:
   explicit FrontSet(const FrontTables& tables);
 
-  [[nodiscard]] bool is_split(std::uint32_t node) const { return has(split_, node); }
-  [[nodiscard]] bool is_wanted(std::uint32_t node) const { return has(wanted_, node); }
+  [[nodiscard]] bool is_split(std::uint32_t node) const { return front_bits::has(split_, node); }
+  [[nodiscard]] bool is_wanted(std::uint32_t node) const { return front_bits::has(wanted_, node); }
   [[nodiscard]] float priority(std::uint32_t node) const { return priorities_[node]; }
   /// Of the front: the nodes that exist and are not split.
   [[nodiscard]] std::uint64_t triangles() const { return triangles_; }
   [[nodiscard]] std::uint32_t split_count() const { return split_count_; }
   [[nodiscard]] std::span<const std::uint64_t> split() const { return split_; }
+  /// The words of split() where something may have changed since forget_changes().
+  [[nodiscard]] std::span<const std::uint64_t> changed_words() const { return changed_; }
+  void forget_changes() { std::fill(changed_.begin(), changed_.end(), 0); }
   /// Split nodes that require the node.
   [[nodiscard]] std::uint32_t dependants(std::uint32_t node) const { return dependants_[node]; }
-  /// O(split nodes / 64 + inner nodes / 64).
   [[nodiscard]] std::uint32_t forced_count() const;
 
-  /// Nothing is split any more. O(inner nodes / 64 + split nodes).
+  /// Nothing is split any more. O(split nodes).
   void reset();
   /// Priorities of all that exists. O(existing nodes).
   void evaluate(const FrontPriorities& priorities) {
-    priorities.evaluate(*tables_, exists_, priorities_);
+    priorities.evaluate({*tables_, words_, exists_, priorities_});
   }
 
   /// Wanted are the split nodes with a priority above `tolerance`; all others that are not forced
@@ -64,7 +69,7 @@ class FrontSet {
   /// The node exists and all that it requires is split. The priorities of its children are
   /// evaluated.
   void split(std::uint32_t node, const FrontPriorities& priorities);
-  void want(std::uint32_t node) { add(wanted_, node); }
+  void want(std::uint32_t node) { front_bits::add(wanted_, node); }
   /// A wanted node; it is merged unless others require it, and with it what it alone required.
   void unwant(std::uint32_t node);
 
@@ -79,19 +84,19 @@ class FrontSet {
 
  private:
   using Bits = std::vector<std::uint64_t>;
-  [[nodiscard]] static bool has(const Bits& bits, std::uint32_t node) {
-    return (bits[node / 64] >> node % 64 & 1u) != 0;
+  // For split_, exists_ and wanted_; the other sets belong to functions.
+  [[nodiscard]] front_scan::Among among(const Bits& nodes) const {
+    return {words_, nodes, priorities_};
   }
-  static void add(Bits& bits, std::uint32_t node) { bits[node / 64] |= 1ull << node % 64; }
-  static void remove(Bits& bits, std::uint32_t node) { bits[node / 64] &= ~(1ull << node % 64); }
-
   void add_roots();
-  void block(const ResidentChildren& resident);
+  void add_existing(std::uint32_t first, std::uint32_t end);
+  void remove_existing(std::uint32_t first, std::uint32_t end);
+  void unwant_blocked(const ResidentChildren& resident);
   void merge(std::uint32_t node);
 
   const FrontTables* tables_;
   Bits split_, exists_, wanted_, blocked_, gathered_;
-  bool has_blocked_ = false;
+  Bits words_, changed_;  // sets of words: where nodes exist; where split_ has changed
   std::vector<std::uint32_t> dependants_;
   std::vector<float> priorities_;
   std::uint64_t triangles_ = 0;

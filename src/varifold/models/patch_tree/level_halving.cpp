@@ -1,6 +1,7 @@
 #include <varifold/models/patch_tree/level_halving.h>
 
 #include <varifold/base/parallel.h>
+#include <varifold/models/patch_tree/component_removal.h>
 #include <varifold/simplify/classify.h>
 #include <varifold/simplify/collapse_rounds.h>
 #include <varifold/simplify/packed_normal.h>
@@ -24,6 +25,8 @@ LevelHalving::LevelHalving(WorkingSurface& surface, AttributeField& attributes,
       surface.wedge.has_seams() ? surface.wedge.vertex_of.size() : surface.point_count();
   survivor_.resize(wedges);
   std::iota(survivor_.begin(), survivor_.end(), 0u);
+  live_.resize(surface.point_count());
+  std::iota(live_.begin(), live_.end(), 0u);
 }
 
 void LevelHalving::set_references(const LevelMesh& mesh) {
@@ -43,33 +46,68 @@ HalvingReport LevelHalving::halve(LevelMesh& mesh, std::uint32_t target_faces) {
   HalvingReport report;
   BorderLocks locks;
   set_references(mesh);
-  CollapserOptions options;
-  options.legality.min_shape = kMinShape;
-  Collapser collapser(surface_, &attributes_, options);
-  collapser.guard = &guard_;
-  RoundOptions rounds;
-  rounds.target_faces = target_faces;
-  rounds.exact = true;
-  rounds.threads = options_.threads;
-  rounds.progress = options_.progress;
   while (true) {
-    classify_points(surface_, options_.threads);
-    guard_.begin_level(locks);
+    if (is_first_)
+      classify_points(surface_, options_.threads);
+    else
+      reclassify_points(surface_, live_, options_.threads);
+    is_first_ = false;
+    guard_.begin_level(locks, live_);
     if (report.reruns == kMaxReruns) guard_.lock_all();
-    const CollapseLog log = run_rounds(surface_, collapser, rounds);
-    report.cancelled = log.cancelled;
+    std::vector<CollapseLogEntry> log;
+    report.cancelled = !collapse(target_faces, log);
     const BorderLocks before = locks;
-    report.is_sound = !log.cancelled && guard_.verify(locks);
-    if (report.is_sound || log.cancelled || report.reruns == kMaxReruns) {
-      find_survivors(log.entries);
+    report.is_sound = !report.cancelled && guard_.verify(locks);
+    if (report.is_sound || report.cancelled || report.reruns == kMaxReruns) {
+      report.vanished_points = vanish(target_faces, log);
+      find_survivors(log);
       break;
     }
     report.reruns = locks == before ? kMaxReruns : report.reruns + 1;
-    restore(mesh, log.entries);
+    restore(mesh, log);
   }
   report.locked_points = static_cast<std::uint32_t>(locks.points.size());
   shrink(mesh);
   return report;
+}
+
+// Down to the target; what keeps needles away is relaxed where nothing else is left to do. False
+// where cancelled.
+bool LevelHalving::collapse(std::uint32_t target_faces, std::vector<CollapseLogEntry>& log) {
+  for (const float min_shape : {kMinShape, LegalityOptions().min_shape}) {
+    if (surface_.face_count <= target_faces) break;
+    CollapserOptions options;
+    options.legality.min_shape = min_shape;
+    Collapser collapser(surface_, &attributes_, options);
+    collapser.guard = &guard_;
+    RoundOptions rounds;
+    rounds.target_faces = target_faces;
+    rounds.exact = true;
+    rounds.live = live_;
+    rounds.threads = options_.threads;
+    rounds.progress = options_.progress;
+    CollapseLog done = run_rounds(surface_, collapser, rounds);
+    if (log.empty())
+      log = std::move(done.entries);
+    else
+      log.insert(log.end(), done.entries.begin(), done.entries.end());
+    if (done.cancelled) return false;
+  }
+  return true;
+}
+
+// Components that cannot be halved and lie inside one patch go as a whole.
+std::uint32_t LevelHalving::vanish(std::uint32_t target_faces, std::vector<CollapseLogEntry>& log) {
+  if (surface_.face_count <= target_faces) return 0;
+  const auto gone = remove_components(surface_, target_faces);
+  WedgeTables& wedge = surface_.wedge;
+  for (const auto& [from, onto] : gone) {
+    log.push_back({from, onto, 0, 0, 0});
+    if (!wedge.has_seams()) continue;
+    for (std::uint32_t w = wedge.first[from]; w < wedge.first[from + 1]; ++w)
+      wedge.target[w] = wedge.first[onto];
+  }
+  return static_cast<std::uint32_t>(gone.size());
 }
 
 void LevelHalving::restore(const LevelMesh& mesh, std::span<const CollapseLogEntry> log) {
@@ -85,21 +123,32 @@ void LevelHalving::restore(const LevelMesh& mesh, std::span<const CollapseLogEnt
       wedge.target[w] = kNone;
 }
 
-// From the last collapse back, so that the target's own survivor is known.
+// Each where its point went at first, then on from there, in the order of their numbers.
 void LevelHalving::find_survivors(std::span<const CollapseLogEntry> log) {
+  const WedgeTables& wedge = surface_.wedge;
   std::iota(survivor_.begin(), survivor_.end(), 0u);
-  for (std::size_t i = log.size(); i-- > 0;) {
-    if (!surface_.wedge.has_seams()) {
-      survivor_[log[i].from] = survivor_[log[i].onto];
+  for (const CollapseLogEntry& entry : log) {
+    if (!wedge.has_seams()) {
+      survivor_[entry.from] = entry.onto;
       continue;
     }
-    const WedgeTables& wedge = surface_.wedge;
-    for (std::uint32_t w = wedge.first[log[i].from]; w < wedge.first[log[i].from + 1]; ++w)
-      survivor_[w] = survivor_[wedge.target[w]];
+    for (std::uint32_t w = wedge.first[entry.from]; w < wedge.first[entry.from + 1]; ++w)
+      survivor_[w] = wedge.target[w];
+  }
+  for (std::uint32_t w = 0; w < survivor_.size(); ++w) {
+    std::uint32_t end = survivor_[w];
+    while (survivor_[end] != end) end = survivor_[end];
+    for (std::uint32_t at = w; survivor_[at] != end;) at = std::exchange(survivor_[at], end);
   }
   went_.clear();
-  for (const CollapseLogEntry& entry : log)
-    went_.emplace_back(entry.from, point_of(survivor_[surface_.wedge.first_of(entry.from)]));
+  std::size_t kept = 0;
+  for (const std::uint32_t p : live_) {
+    if (surface_.points[p].flags & PointState::kDead)
+      went_.emplace_back(p, point_of(survivor_[wedge.first_of(p)]));
+    else
+      live_[kept++] = p;
+  }
+  live_.resize(kept);
 }
 
 void LevelHalving::shrink(LevelMesh& mesh) const {

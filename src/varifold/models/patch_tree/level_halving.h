@@ -32,9 +32,10 @@ struct HalvingOptions {
 };
 
 struct HalvingReport {
-  std::uint32_t reruns = 0;         ///< because a mixture was found to be unsound
-  std::uint32_t locked_points = 0;  ///< for that reason
-  bool is_sound = false;            ///< of all mixtures with the level before
+  std::uint32_t reruns = 0;           ///< because a mixture was found to be unsound
+  std::uint32_t locked_points = 0;    ///< for that reason
+  std::uint32_t vanished_points = 0;  ///< of components that went as a whole
+  bool is_sound = false;              ///< of all mixtures with the level before
   bool cancelled = false;
 };
 
@@ -51,7 +52,9 @@ class LevelHalving {
 
   /// Where a wedge of the level before went; itself if it stayed.
   [[nodiscard]] std::uint32_t survivor(std::uint32_t wedge) const { return survivor_[wedge]; }
-  /// The points that went, each with the point where it ended up.
+  /// The points that are left, ascending.
+  [[nodiscard]] std::span<const std::uint32_t> live() const { return live_; }
+  /// The points that went, ascending, each with the point where it ended up.
   [[nodiscard]] std::span<const std::pair<std::uint32_t, std::uint32_t>> went() const {
     return went_;
   }
@@ -59,6 +62,9 @@ class LevelHalving {
 
  private:
   void set_references(const LevelMesh& mesh);
+  [[nodiscard]] bool collapse(std::uint32_t target_faces, std::vector<CollapseLogEntry>& log);
+  [[nodiscard]] std::uint32_t vanish(std::uint32_t target_faces,
+                                     std::vector<CollapseLogEntry>& log);
   void restore(const LevelMesh& mesh, std::span<const CollapseLogEntry> log);
   void find_survivors(std::span<const CollapseLogEntry> log);
   void shrink(LevelMesh& mesh) const;
@@ -70,7 +76,9 @@ class LevelHalving {
   AttributeField& attributes_;
   HalvingOptions options_;
   BorderGuard guard_;
+  bool is_first_ = true;  // level
   std::vector<std::uint32_t> survivor_;
+  std::vector<std::uint32_t> live_;  // points, ascending
   std::vector<std::pair<std::uint32_t, std::uint32_t>> went_;
 };
 

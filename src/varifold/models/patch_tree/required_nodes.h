@@ -20,8 +20,10 @@ namespace varifold {
 
 /// Of every inner node, the nodes that it requires: its parent and those of its neighbours, each
 /// once, the own one first. They all are of the next coarser level, so their numbers are smaller.
-/// A set of nodes that has with every node those that it requires is closed: the nodes that are no
-/// longer there, of a front whose neighbours differ by at most one level.
+/// A set of nodes that has with every node those that it requires is closed. Where just these are
+/// split, patches of the front that share a vertex differ by at most one level: say that the finer
+/// one is two levels or more below the other, a. Its ancestor on the level of a's children is
+/// split, and touches one of these, so it requires a. But a is not split.
 class RequiredNodes {
  public:
   RequiredNodes() = default;
