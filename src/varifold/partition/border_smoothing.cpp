@@ -255,10 +255,26 @@ std::vector<std::vector<std::uint32_t>> independent_sets(const std::vector<Stret
   return sets;
 }
 
+double path_length(const SurfaceView& surface, const std::vector<std::uint32_t>& path) {
+  double sum = 0;
+  for (std::size_t i = 1; i < path.size(); ++i)
+    sum += glm::distance(DVec3(surface.positions[path[i - 1]]), DVec3(surface.positions[path[i]]));
+  return sum;
+}
+
+// Adds the edges and the length of all stretches, times `sign`.
+void add_stretches(const SurfaceView& surface, const std::vector<Stretch>& stretches, int sign,
+                   SmoothingReport& report) {
+  for (const Stretch& stretch : stretches) {
+    report.edges += sign * static_cast<std::int64_t>(stretch.path.size() - 1);
+    report.length += sign * path_length(surface, stretch.path);
+  }
+}
+
 }  // namespace
 
-std::uint32_t smooth_borders(const SurfaceView& surface, const EdgeLinks& links,
-                             const SmoothedPatches& patches, int threads) {
+SmoothingReport smooth_borders(const SurfaceView& surface, const EdgeLinks& links,
+                               const SmoothedPatches& patches, int threads) {
   const std::span<std::uint32_t> patch_of = patches.patch_of;
   std::vector<std::uint32_t> sizes(patches.count, 0);
   for (const std::uint32_t patch : patch_of) ++sizes[patch];
@@ -270,9 +286,11 @@ std::uint32_t smooth_borders(const SurfaceView& surface, const EdgeLinks& links,
   // A stretch is looked at again when one of its patches has changed since.
   std::vector<std::uint32_t> checked_at(borders.stretches.size(), 0);
   std::vector<std::uint32_t> changed_at(patches.count, 1);
-  std::uint32_t step = 1, rounds = 0;
+  SmoothingReport report;
+  add_stretches(surface, borders.stretches, 1, report);
+  std::uint32_t step = 1;
   std::vector<std::uint32_t> due;
-  for (bool again = true; again && rounds < kMaxRounds; ++rounds) {
+  for (bool again = true; again && report.rounds < kMaxRounds; ++report.rounds) {
     again = false;
     for (const std::vector<std::uint32_t>& set : sets) {
       ++step;
@@ -293,7 +311,8 @@ std::uint32_t smooth_borders(const SurfaceView& surface, const EdgeLinks& links,
       });
     }
   }
-  return rounds;
+  add_stretches(surface, borders.stretches, -1, report);
+  return report;
 }
 
 }  // namespace varifold

@@ -18,14 +18,20 @@ struct SmoothedPatches {
   std::uint32_t max_triangles = ~0u;  ///< no patch grows beyond
 };
 
+struct SmoothingReport {
+  std::uint32_t rounds = 0;
+  std::int64_t edges = 0;  ///< by how many the borders have fewer
+  double length = 0;       ///< by how much they are shorter, model units
+};
+
 /// Replaces every stretch of border between two corners by a shortest path over edges through its
 /// corridor, that is, its points and those next to them inside its two patches, and again until
 /// nothing gets shorter by more than 1e-5 of a stretch; the triangles between the old and the new
 /// path change sides. Fixed are corners, borders of materials, open and non-manifold edges, borders
 /// without corners, and paths that a shorter one in the corridor leads around a handle or a hole.
-/// Returns the number of rounds. The same result for any number of threads. About O(n), mostly for
+/// The same result for any number of threads. About O(n), mostly for
 /// finding the borders.
-std::uint32_t smooth_borders(const SurfaceView& surface, const EdgeLinks& links,
+SmoothingReport smooth_borders(const SurfaceView& surface, const EdgeLinks& links,
                              const SmoothedPatches& patches, int threads);
 
 }  // namespace varifold

@@ -36,8 +36,8 @@ struct Builder {
   [[nodiscard]] Vec3 side(std::uint32_t from, std::uint32_t to) const {
     return (0.5f * surface.positions[to] - 0.5f * surface.positions[from]) * scale;
   }
-  void describe(ClusterGraph& graph, std::uint32_t cluster,
-                std::span<const std::uint32_t> triangles, std::vector<std::uint32_t>& ends) const;
+  void list_borders(ClusterGraph& graph) const;
+  void describe(ClusterGraph& graph, std::uint32_t cluster, std::vector<std::uint32_t>& ends) const;
 };
 
 // Lengths are halved first: no extent of finite points is too large then.
@@ -61,71 +61,42 @@ void add_common_edge(ClusterLink* row, std::uint32_t& count, std::uint32_t other
   row[count++] = {other, length, 1};
 }
 
+// The row of points holds the half-edges on the border before.
 void Builder::describe(ClusterGraph& graph, std::uint32_t cluster,
-                       std::span<const std::uint32_t> triangles,
                        std::vector<std::uint32_t>& ends) const {
   ClusterShape& shape = graph.shapes[cluster];
-  shape.triangles = static_cast<std::uint32_t>(triangles.size());
   Row& link_row = graph.link_rows[cluster];
-  ends.clear();
-  for (const std::uint32_t t : triangles) {
-    shape.area += area(t);
-    for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
-      const std::uint32_t other = beyond(h);
-      if (other == cluster) continue;
-      const float edge = length(h);
-      shape.outline += edge;
-      ends.push_back(surface.corners[h]);
-      ends.push_back(surface.corners[next_in_triangle(h)]);
-      if (other == kNone) continue;
-      add_common_edge(graph.links.data() + link_row.begin, link_row.count, other, edge);
-    }
-  }
-  std::sort(ends.begin(), ends.end());
   Row& point_row = graph.point_rows[cluster];
   std::uint32_t* points = graph.points.data() + point_row.begin;
+  ends.clear();
+  for (std::uint32_t i = 0; i < point_row.count; ++i) {
+    const std::uint32_t h = points[i];
+    const float edge = length(h);
+    shape.outline += edge;
+    ends.push_back(surface.corners[h]);
+    ends.push_back(surface.corners[next_in_triangle(h)]);
+    const std::uint32_t other = beyond(h);
+    if (other == kNone) continue;
+    add_common_edge(graph.links.data() + link_row.begin, link_row.count, other, edge);
+  }
+  std::sort(ends.begin(), ends.end());
   point_row.count =
       static_cast<std::uint32_t>(std::unique_copy(ends.begin(), ends.end(), points) - points);
 }
 
-// Triangles by cluster.
-struct Members {
-  LargeVector<std::uint32_t> first, triangles;
-
-  Members(const ClusterMap& map) : first(std::size_t{map.count} + 1, 0) {
-    const auto n = static_cast<std::uint32_t>(map.cluster_of.size());
-    for (const std::uint32_t cluster : map.cluster_of)
-      if (cluster != kNone) ++first[cluster];
-    std::uint32_t total = 0;
-    for (std::uint32_t& f : first) f = total += f;
-    triangles.resize(total);
-    for (std::uint32_t t = n; t-- > 0;)
-      if (map.cluster_of[t] != kNone) triangles[--first[map.cluster_of[t]]] = t;
+// Counts the half-edges on the border of every cluster, then puts them in its row of points. No row
+// of links or points will be longer.
+void Builder::list_borders(ClusterGraph& graph) const {
+  const auto n = static_cast<std::uint32_t>(map.cluster_of.size());
+  for (std::uint32_t t = 0; t < n; ++t) {
+    const std::uint32_t cluster = map.cluster_of[t];
+    if (cluster == kNone) continue;
+    ClusterShape& shape = graph.shapes[cluster];
+    shape.area += area(t);
+    ++shape.triangles;
+    for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h)
+      graph.point_rows[cluster].begin += beyond(h) != cluster;
   }
-  [[nodiscard]] std::span<const std::uint32_t> of(std::uint32_t cluster) const {
-    return {triangles.data() + first[cluster], first[cluster + 1] - first[cluster]};
-  }
-};
-
-}  // namespace
-
-ClusterGraph build_cluster_graph(const SurfaceView& surface, const EdgeLinks& links,
-                                 const ClusterMap& map, bool across_materials, int threads) {
-  const Builder builder{surface, links, map, across_materials, half_length_scale(surface)};
-  const Members members(map);
-  ClusterGraph graph;
-  graph.unit = 2 / builder.scale;
-  graph.shapes.resize(map.count);
-  graph.link_rows.resize(map.count);
-  graph.point_rows.resize(map.count);
-
-  // Reserve a place per half-edge on a border: no row of links or points is longer.
-  parallel_for(threads, map.count, kGrain, [&](std::size_t begin, std::size_t end) {
-    for (auto c = static_cast<std::uint32_t>(begin); c < end; ++c)
-      for (const std::uint32_t t : members.of(c))
-        for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h)
-          graph.point_rows[c].begin += builder.beyond(h) != c;
-  });
   std::uint32_t total = 0;
   for (std::uint32_t c = 0; c < map.count; ++c) {
     const std::uint32_t places = graph.point_rows[c].begin;
@@ -134,11 +105,29 @@ ClusterGraph build_cluster_graph(const SurfaceView& surface, const EdgeLinks& li
   }
   graph.links.resize(total);
   graph.points.resize(total);
+  for (std::uint32_t t = 0; t < n; ++t) {
+    const std::uint32_t cluster = map.cluster_of[t];
+    if (cluster == kNone) continue;
+    Row& row = graph.point_rows[cluster];
+    for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h)
+      if (beyond(h) != cluster) graph.points[row.begin + row.count++] = h;
+  }
+}
 
+}  // namespace
+
+ClusterGraph build_cluster_graph(const SurfaceView& surface, const EdgeLinks& links,
+                                 const ClusterMap& map, bool across_materials, int threads) {
+  const Builder builder{surface, links, map, across_materials, half_length_scale(surface)};
+  ClusterGraph graph;
+  graph.unit = 2 / builder.scale;
+  graph.shapes.resize(map.count);
+  graph.link_rows.resize(map.count);
+  graph.point_rows.resize(map.count);
+  builder.list_borders(graph);
   parallel_for(threads, map.count, kGrain, [&](std::size_t begin, std::size_t end) {
     std::vector<std::uint32_t> ends;
-    for (auto c = static_cast<std::uint32_t>(begin); c < end; ++c)
-      builder.describe(graph, c, members.of(c), ends);
+    for (auto c = static_cast<std::uint32_t>(begin); c < end; ++c) builder.describe(graph, c, ends);
   });
   graph.clusters_at.assign(surface.positions.size(), 0);
   for (std::uint32_t c = 0; c < map.count; ++c)

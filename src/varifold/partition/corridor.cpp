@@ -46,8 +46,13 @@ void Corridor::add(PatchedSurface& patched, std::uint32_t point, std::uint32_t s
   if (node_at(patched, point) != kNone) return;
   const std::uint32_t use = patched.borders.use_of[point];
   if (use != PointUse::kInside && use != stretch_) return;
+  const float remaining = distance(patched, point, nodes_[1].point);
+  if (use != stretch_ &&
+      distance(patched, nodes_[0].point, point) + remaining >= kShorter * old_length_)
+    return;  // no shorter path goes there
   patched.node_of[point] = static_cast<std::uint32_t>(nodes_.size());
   nodes_.push_back({point, spoke});
+  nodes_.back().remaining = remaining;
 }
 
 // The ends are no inner points: their fans are walked from a triangle beside the stretch.
@@ -76,7 +81,7 @@ void Corridor::collect(PatchedSurface& patched) {
   for (std::size_t i = 0; i < count; ++i)
     for_each_neighbor(patched, nodes_[i].point, nodes_[i].spoke,
                       [&](std::uint32_t point, std::uint32_t h) { add(patched, point, h); });
-  for (Node& node : nodes_) node.remaining = distance(patched, node.point, nodes_[1].point);
+  nodes_[0].remaining = distance(patched, nodes_[0].point, nodes_[1].point);
 }
 
 void Corridor::relax(std::uint32_t from, std::uint32_t to, float length) {
@@ -122,6 +127,7 @@ bool Corridor::find_shorter(PatchedSurface& patched, std::uint32_t stretch) {
   a_ = old.a;
   b_ = old.b;
   old_length_ = length(patched, old.path);
+  if (distance(patched, old.path.front(), old.path.back()) >= kShorter * old_length_) return false;
   collect(patched);
   if (nodes_[0].spoke == kNone || nodes_[1].spoke == kNone || !search(patched)) return false;
   path_.clear();

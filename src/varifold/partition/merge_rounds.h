@@ -37,6 +37,9 @@ class MergeRounds {
 
   /// Those that are left, ascending.
   [[nodiscard]] const std::vector<std::uint32_t>& alive() const { return alive_; }
+  [[nodiscard]] const ClusterShape& shape(std::uint32_t alive) const {
+    return graph_.shapes[alive];
+  }
   /// The cluster that a cluster of the start is part of now.
   [[nodiscard]] std::uint32_t cluster_of(std::uint32_t first) const { return resolve(first); }
 

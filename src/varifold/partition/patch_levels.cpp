@@ -103,18 +103,23 @@ void number_by_parents(PatchLevels& levels, Partition& partition) {
     std::stable_sort(parent.begin(), parent.end());
   }
   for (std::uint32_t& patch : partition.patch_of) patch = number[patch];
+  const std::vector<std::int32_t> euler = partition.euler;
+  for (std::uint32_t p = 0; p < partition.patch_count; ++p) partition.euler[number[p]] = euler[p];
 }
 
 }  // namespace
 
 PatchLevels make_levels(const SurfaceView& surface, Partition& partition, int threads) {
+  return make_levels(surface, EdgeLinks(surface), partition, threads);
+}
+
+PatchLevels make_levels(const SurfaceView& surface, const EdgeLinks& links, Partition& partition,
+                        int threads) {
   PatchLevels levels;
   if (partition.patch_count == 0) return levels;
-  const EdgeLinks links(surface);
   const ClusterMap map{partition.patch_of, partition.patch_count};
   ClusterGraph graph = build_cluster_graph(surface, links, map, true, threads);
-  const std::vector<std::int32_t> euler = euler_characteristics(surface, links, map);
-  for (std::uint32_t c = 0; c < map.count; ++c) graph.shapes[c].euler = euler[c];
+  for (std::uint32_t c = 0; c < map.count; ++c) graph.shapes[c].euler = partition.euler[c];
   link_components(surface, partition, graph);
 
   MergeRounds rounds(std::move(graph), threads);

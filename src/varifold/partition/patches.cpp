@@ -66,19 +66,18 @@ void merge_clusters(const SurfaceView& surface, const EdgeLinks& links, const Cl
   partition.patch_count = static_cast<std::uint32_t>(rounds.alive().size());
   std::vector<std::uint32_t> patch_of(map.count);
   for (std::uint32_t p = 0; p < partition.patch_count; ++p) patch_of[rounds.alive()[p]] = p;
+  for (const std::uint32_t c : rounds.alive()) partition.euler.push_back(rounds.shape(c).euler);
   for (std::uint32_t c = 0; c < map.count; ++c) patch_of[c] = patch_of[rounds.cluster_of(c)];
   for (std::uint32_t& entry : partition.patch_of)
     if (entry != kNone) entry = patch_of[entry];
 }
 
-void measure(const SurfaceView& surface, const EdgeLinks& links, Partition& partition) {
-  partition.border_edges = 0;
-  partition.border_length = 0;
+void measure_rough(const SurfaceView& surface, const EdgeLinks& links, Partition& partition) {
   for (std::uint32_t h = 0; h < surface.corners.size(); ++h) {
     const std::uint32_t g = links.across(h);
     if (g == kNone || g > h || partition.patch_of[g / 3] == partition.patch_of[h / 3]) continue;
-    ++partition.border_edges;
-    partition.border_length +=
+    ++partition.rough_border_edges;
+    partition.rough_border_length +=
         glm::distance(DVec3(surface.positions[surface.corners[h]]),
                       DVec3(surface.positions[surface.corners[next_in_triangle(h)]]));
   }
@@ -87,12 +86,16 @@ void measure(const SurfaceView& surface, const EdgeLinks& links, Partition& part
 }  // namespace
 
 Partition make_patches(const SurfaceView& surface, const PartitionOptions& options) {
+  return make_patches(surface, EdgeLinks(surface), options);
+}
+
+Partition make_patches(const SurfaceView& surface, const EdgeLinks& links,
+                       const PartitionOptions& options) {
   Partition partition;
   partition.patch_of.resize(surface.triangle_count());
   if (surface.triangle_count() == 0) return partition;
 
   // Set aside what merging cannot handle.
-  const EdgeLinks links(surface);
   const TriangleGroups glued =
       glue_nonmanifold_stars(surface, links, max_triangles(options.triangles_per_patch));
   const TriangleGroups small =
@@ -107,18 +110,22 @@ Partition make_patches(const SurfaceView& surface, const PartitionOptions& optio
     if (small.of(t) != kNone) partition.patch_of[t] = partition.patch_count + small.of(t);
   partition.patch_count += small.count;
 
-  measure(surface, links, partition);
-  partition.rough_border_edges = partition.border_edges;
-  partition.rough_border_length = partition.border_length;
+  measure_rough(surface, links, partition);
+  partition.border_edges = partition.rough_border_edges;
+  partition.border_length = partition.rough_border_length;
   if (options.smooth) {
     const SmoothedPatches patches{partition.patch_of, partition.patch_count,
                                   max_triangles(options.triangles_per_patch)};
-    partition.smoothing_rounds = smooth_borders(surface, links, patches, options.threads);
-    measure(surface, links, partition);
+    const SmoothingReport report = smooth_borders(surface, links, patches, options.threads);
+    partition.smoothing_rounds = report.rounds;
+    partition.border_edges -= static_cast<std::uint64_t>(report.edges);
+    partition.border_length -= report.length;
   }
-  for (const std::int32_t euler :
-       euler_characteristics(surface, links, {partition.patch_of, partition.patch_count}))
-    partition.non_discs += euler != 1;
+  // What merging counted holds where triangles meet in pairs; smoothing keeps it.
+  if (small.count > 0 || !links.nonmanifold().empty())
+    partition.euler =
+        euler_characteristics(surface, links, {partition.patch_of, partition.patch_count});
+  for (const std::int32_t euler : partition.euler) partition.non_discs += euler != 1;
   return partition;
 }
 
