@@ -32,6 +32,6 @@ struct SmoothingReport {
 /// The same result for any number of threads. About O(n), mostly for
 /// finding the borders.
 SmoothingReport smooth_borders(const SurfaceView& surface, const EdgeLinks& links,
-                             const SmoothedPatches& patches, int threads);
+                               const SmoothedPatches& patches, int threads);
 
 }  // namespace varifold

@@ -17,13 +17,14 @@ struct Builder {
   const EdgeLinks& edges;
   const ClusterMap& map;
   bool across_materials;
-  float scale;  // of half lengths, to those of a surface of extent 1
+  float scale;  // of half lengths, which cannot run over
 
   // The cluster across a half-edge, or kNone.
   [[nodiscard]] std::uint32_t beyond(std::uint32_t half_edge) const {
     const std::uint32_t g =
         across_materials ? edges.across(half_edge) : edges.across_in_material(half_edge);
-    return g == kNone ? kNone : map.cluster_of[g / 3];
+    const std::uint32_t at = g / 3 - map.first;
+    return g == kNone || at >= map.cluster_of.size() ? kNone : map.cluster_of[at];
   }
   [[nodiscard]] float length(std::uint32_t half_edge) const {
     return glm::length(
@@ -39,16 +40,6 @@ struct Builder {
   void list_borders(ClusterGraph& graph) const;
   void describe(ClusterGraph& graph, std::uint32_t cluster, std::vector<std::uint32_t>& ends) const;
 };
-
-// Lengths are halved first: no extent of finite points is too large then.
-float half_length_scale(const SurfaceView& surface) {
-  Box box;
-  for (const Vec3& p : surface.positions) box.add(0.5f * p);
-  if (box.empty()) return 1;
-  const Vec3 extent = box.upper - box.lower;
-  const float scale = 1 / std::max({extent.x, extent.y, extent.z});
-  return std::isfinite(scale) ? scale : 1;
-}
 
 // Adds what a half-edge has in common with a neighbour to the row.
 void add_common_edge(ClusterLink* row, std::uint32_t& count, std::uint32_t other, float length) {
@@ -88,8 +79,8 @@ void Builder::describe(ClusterGraph& graph, std::uint32_t cluster,
 // of links or points will be longer.
 void Builder::list_borders(ClusterGraph& graph) const {
   const auto n = static_cast<std::uint32_t>(map.cluster_of.size());
-  for (std::uint32_t t = 0; t < n; ++t) {
-    const std::uint32_t cluster = map.cluster_of[t];
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const std::uint32_t cluster = map.cluster_of[i], t = map.first + i;
     if (cluster == kNone) continue;
     ClusterShape& shape = graph.shapes[cluster];
     shape.area += area(t);
@@ -105,8 +96,8 @@ void Builder::list_borders(ClusterGraph& graph) const {
   }
   graph.links.resize(total);
   graph.points.resize(total);
-  for (std::uint32_t t = 0; t < n; ++t) {
-    const std::uint32_t cluster = map.cluster_of[t];
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const std::uint32_t cluster = map.cluster_of[i], t = map.first + i;
     if (cluster == kNone) continue;
     Row& row = graph.point_rows[cluster];
     for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h)
@@ -116,19 +107,28 @@ void Builder::list_borders(ClusterGraph& graph) const {
 
 }  // namespace
 
+float length_unit(const SurfaceView& surface) {
+  Box box;
+  for (const Vec3& p : surface.positions) box.add(0.5f * p);
+  if (box.empty()) return 1;
+  const Vec3 half = box.upper - box.lower;
+  const float unit = 2 * std::max({half.x, half.y, half.z});
+  return std::isfinite(unit) && std::isfinite(2 / unit) ? unit : 1;
+}
+
 ClusterGraph build_cluster_graph(const SurfaceView& surface, const EdgeLinks& links,
-                                 const ClusterMap& map, bool across_materials, int threads) {
-  const Builder builder{surface, links, map, across_materials, half_length_scale(surface)};
+                                 const ClusterMap& map, const GraphOptions& options) {
+  const Builder builder{surface, links, map, options.across_materials, 2 / options.unit};
   ClusterGraph graph;
-  graph.unit = 2 / builder.scale;
   graph.shapes.resize(map.count);
   graph.link_rows.resize(map.count);
   graph.point_rows.resize(map.count);
   builder.list_borders(graph);
-  parallel_for(threads, map.count, kGrain, [&](std::size_t begin, std::size_t end) {
+  parallel_for(options.threads, map.count, kGrain, [&](std::size_t begin, std::size_t end) {
     std::vector<std::uint32_t> ends;
     for (auto c = static_cast<std::uint32_t>(begin); c < end; ++c) builder.describe(graph, c, ends);
   });
+  if (!options.count_clusters_at) return graph;
   graph.clusters_at.assign(surface.positions.size(), 0);
   for (std::uint32_t c = 0; c < map.count; ++c)
     for (const std::uint32_t point : graph.points_of(c)) ++graph.clusters_at[point];

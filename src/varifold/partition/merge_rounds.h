@@ -83,6 +83,7 @@ class MergeRounds {
   void compact();
   void merge(const Pair& pair);
   void merge_links(const Pair& pair);
+  [[nodiscard]] bool is_shared(std::uint32_t point, bool was_common);
   [[nodiscard]] std::uint32_t merge_points(const Pair& pair);
 
   ClusterGraph graph_;

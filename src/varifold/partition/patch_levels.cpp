@@ -44,7 +44,8 @@ void add_links(ClusterGraph& graph,
 
 // Links patches of different components that follow each other on a Morton curve, so that the graph
 // is connected.
-void link_components(const SurfaceView& surface, const Partition& partition, ClusterGraph& graph) {
+void link_components(const SurfaceView& surface, const Partition& partition, float unit,
+                     ClusterGraph& graph) {
   DisjointSets components(graph.size());
   for (std::uint32_t c = 0; c < graph.size(); ++c)
     for (const ClusterLink& link : graph.links_of(c)) components.unite(c, link.other);
@@ -62,7 +63,7 @@ void link_components(const SurfaceView& surface, const Partition& partition, Clu
   for (std::size_t i = 1; i < curve.size(); ++i) {
     const std::uint32_t a = curve[i - 1].second, b = curve[i].second;
     if (components.find(a) == components.find(b)) continue;
-    const float gap = gap_between(boxes[a], boxes[b]) / graph.unit;
+    const float gap = gap_between(boxes[a], boxes[b]) / unit;
     extra.push_back({a, {b, -gap, 0}});
     extra.push_back({b, {a, -gap, 0}});
   }
@@ -118,9 +119,11 @@ PatchLevels make_levels(const SurfaceView& surface, const EdgeLinks& links, Part
   PatchLevels levels;
   if (partition.patch_count == 0) return levels;
   const ClusterMap map{partition.patch_of, partition.patch_count};
-  ClusterGraph graph = build_cluster_graph(surface, links, map, true, threads);
+  const float unit = length_unit(surface);
+  ClusterGraph graph = build_cluster_graph(
+      surface, links, map, {.across_materials = true, .unit = unit, .threads = threads});
   for (std::uint32_t c = 0; c < map.count; ++c) graph.shapes[c].euler = partition.euler[c];
-  link_components(surface, partition, graph);
+  link_components(surface, partition, unit, graph);
 
   MergeRounds rounds(std::move(graph), threads);
   std::vector<std::uint32_t> number(map.count);

@@ -15,6 +15,7 @@ namespace {
 
 // Patches of fewer triangles are merged from single ones.
 constexpr std::uint32_t kMinTrianglesForSeeds = 64;
+constexpr std::uint32_t kMaxSeedTriangles = 100;
 
 std::uint32_t max_triangles(std::uint32_t triangles_per_patch) {
   return static_cast<std::uint32_t>(
@@ -36,7 +37,9 @@ std::uint32_t first_clusters(const SurfaceView& surface, const EdgeLinks& links,
     cluster_of[t] = cluster;
   }
   if (options.triangles_per_patch >= kMinTrianglesForSeeds) {
-    count = seed_clusters(surface, links, cluster_of, count, options.threads);
+    const SeedOptions seeds{std::clamp(options.triangles_per_patch / 4, 16u, kMaxSeedTriangles),
+                            length_unit(surface), options.threads};
+    count = seed_clusters(surface, links, seeds, cluster_of, count);
   } else {
     for (std::uint32_t& cluster : cluster_of)
       if (cluster == kNone) cluster = count++;
@@ -47,7 +50,8 @@ std::uint32_t first_clusters(const SurfaceView& surface, const EdgeLinks& links,
 
 void merge_clusters(const SurfaceView& surface, const EdgeLinks& links, const ClusterMap& map,
                     const PartitionOptions& options, Partition& partition) {
-  ClusterGraph graph = build_cluster_graph(surface, links, map, false, options.threads);
+  ClusterGraph graph = build_cluster_graph(
+      surface, links, map, {.unit = length_unit(surface), .threads = options.threads});
   if (!links.nonmanifold().empty()) {
     const std::vector<std::int32_t> euler = euler_characteristics(surface, links, map);
     for (std::uint32_t c = 0; c < map.count; ++c) graph.shapes[c].euler = euler[c];

@@ -1,6 +1,8 @@
 #include <varifold/partition/seed_clusters.h>
 
 #include <varifold/base/parallel.h>
+#include <varifold/partition/cluster_graph.h>
+#include <varifold/partition/merge_rounds.h>
 #include <varifold/partition/vertex_fans.h>
 #include <algorithm>
 #include <array>
@@ -9,40 +11,50 @@ namespace varifold {
 
 namespace {
 
-// Clusters stay within pieces of so many triangles, so that pieces are independent.
-constexpr std::uint32_t kPiece = 1u << 15;
+// Clusters stay within pieces of so many triangles: pieces are independent, and what is known of
+// one stays in a cache.
+constexpr std::uint32_t kPiece = 1u << 14;
 constexpr std::uint32_t kMaxStar = 8;
 constexpr std::uint32_t kMinStar = 4;
 constexpr std::uint32_t kMaxSeed = 10;
 
 class Seeder {
  public:
-  Seeder(const SurfaceView& surface, const EdgeLinks& links, std::span<std::uint32_t> cluster_of,
-         std::uint32_t begin)
+  // Of the triangles of a piece those whose `cluster_of` is kNone.
+  Seeder(const SurfaceView& surface, const EdgeLinks& links,
+         std::span<const std::uint32_t> cluster_of, std::uint32_t begin)
       : surface_(surface),
         links_(links),
-        cluster_of_(cluster_of),
         begin_(begin),
-        end_(std::min(begin + kPiece, surface.triangle_count())),
-        is_old_(end_ - begin_) {
-    for (std::uint32_t t = begin_; t < end_; ++t) is_old_[t - begin_] = cluster_of[t] != kNone;
+        seed_of_(std::min<std::size_t>(kPiece, surface.triangle_count() - begin)) {
+    for (std::uint32_t i = 0; i < seed_of_.size(); ++i)
+      seed_of_[i] = cluster_of[begin_ + i] == kNone ? kFree : kNone;
   }
 
   // Numbers the clusters of the piece from 0 on; returns how many there are.
   std::uint32_t run() {
-    for (std::uint32_t t = begin_; t < end_; ++t)
+    const auto end = static_cast<std::uint32_t>(begin_ + seed_of_.size());
+    for (std::uint32_t t = begin_; t < end; ++t)
       for (std::uint32_t i = 0; i < 3 && is_free(t); ++i) try_star(3 * t + i);
-    for (std::uint32_t t = begin_; t < end_; ++t)
+    for (std::uint32_t t = begin_; t < end; ++t)
       if (is_free(t)) attach(t);
-    for (std::uint32_t t = begin_; t < end_; ++t)
+    for (std::uint32_t t = begin_; t < end; ++t)
       if (is_free(t)) attach_or_found(t);
     return count_;
   }
 
+  /// Per triangle of the piece; kNone: none.
+  [[nodiscard]] std::span<const std::uint32_t> seeds() const { return seed_of_; }
+
  private:
-  [[nodiscard]] bool is_free(std::uint32_t triangle) const {
-    return triangle >= begin_ && triangle < end_ && cluster_of_[triangle] == kNone;
+  static constexpr std::uint32_t kFree = kNone - 1;
+
+  // kNone: of no seed, and not to be; so are all other pieces.
+  [[nodiscard]] std::uint32_t seed_of(std::uint32_t triangle) const {
+    const std::uint32_t at = triangle - begin_;
+    return at < seed_of_.size() ? seed_of_[at] : kNone;
   }
+  [[nodiscard]] bool is_free(std::uint32_t triangle) const { return seed_of(triangle) == kFree; }
   [[nodiscard]] std::uint32_t corner(std::uint32_t half_edge) const {
     return surface_.corners[half_edge];
   }
@@ -68,7 +80,7 @@ class Seeder {
     for (std::uint32_t i = 1; i < size; ++i)
       for (std::uint32_t k = 0; k < i; ++k)
         if (rim[i] == rim[k]) return;
-    for (std::uint32_t i = 0; i < size; ++i) cluster_of_[star[i]] = count_;
+    for (std::uint32_t i = 0; i < size; ++i) seed_of_[star[i] - begin_] = count_;
     ++count_;
     sizes_.push_back(size);
   }
@@ -79,9 +91,9 @@ class Seeder {
     float longest = -1;
     for (std::uint32_t h = 3 * triangle; h < 3 * triangle + 3; ++h) {
       const std::uint32_t g = links_.across_in_material(h);
-      if (g == kNone || !is_new(g / 3)) continue;
-      const std::uint32_t cluster = cluster_of_[g / 3];
-      if (sizes_[cluster] >= kMaxSeed) continue;
+      if (g == kNone) continue;
+      const std::uint32_t cluster = seed_of(g / 3);
+      if (cluster >= kFree || sizes_[cluster] >= kMaxSeed) continue;
       // The sum of the extents will do, and has no squares that run over.
       const Vec3 edge = glm::abs(0.5f * surface_.positions[corner(next_in_triangle(h))] -
                                  0.5f * surface_.positions[corner(h)]);
@@ -91,14 +103,14 @@ class Seeder {
       best = cluster;
     }
     if (best == kNone) return false;
-    cluster_of_[triangle] = best;
+    seed_of_[triangle - begin_] = best;
     ++sizes_[best];
     return true;
   }
 
   void attach_or_found(std::uint32_t triangle) {
     if (attach(triangle)) return;
-    cluster_of_[triangle] = count_++;
+    seed_of_[triangle - begin_] = count_++;
     sizes_.push_back(1);
   }
 
@@ -108,7 +120,7 @@ class Seeder {
     const std::uint32_t next = next_in_triangle(h), last = next_in_triangle(next);
     const auto is_common = [&](std::uint32_t edge) {
       const std::uint32_t g = links_.across_in_material(edge);
-      return g != kNone && is_new(g / 3) && cluster_of_[g / 3] == cluster;
+      return g != kNone && seed_of(g / 3) == cluster;
     };
     const bool other = is_common(next), another = is_common(last);
     if (other || another) return other != another;
@@ -118,43 +130,62 @@ class Seeder {
         const std::uint32_t g = links_.across_in_material(spoke);
         if (g == kNone) break;
         if (g / 3 == h / 3) return true;
-        if (is_new(g / 3) && cluster_of_[g / 3] == cluster) return false;
+        if (seed_of(g / 3) == cluster) return false;
         spoke = other_spoke(surface_, g, apex);
       }
     return true;
   }
-  // Whether the piece has given the triangle to a cluster.
-  [[nodiscard]] bool is_new(std::uint32_t triangle) const {
-    return triangle >= begin_ && triangle < end_ && !is_old_[triangle - begin_] &&
-           cluster_of_[triangle] != kNone;
-  }
 
   const SurfaceView& surface_;
   const EdgeLinks& links_;
-  std::span<std::uint32_t> cluster_of_;
-  std::uint32_t begin_, end_, count_ = 0;
-  std::vector<std::uint8_t> is_old_;  // per triangle of the piece: not ours
-  std::vector<std::uint32_t> sizes_;  // per cluster
+  std::uint32_t begin_, count_ = 0;
+  std::vector<std::uint32_t> seed_of_;  // per triangle of the piece
+  std::vector<std::uint32_t> sizes_;    // per seed
 };
+
+// Merges the seeds of a piece by themselves, as far as it goes; returns how many clusters there
+// are.
+std::uint32_t merge_seeds(const SurfaceView& surface, const EdgeLinks& links, const ClusterMap& map,
+                          const SeedOptions& options, std::span<std::uint32_t> cluster_of) {
+  const std::uint32_t wanted =
+      static_cast<std::uint32_t>(map.cluster_of.size()) / options.triangles + 1;
+  MergeRounds rounds(
+      build_cluster_graph(surface, links, map,
+                          {.count_clusters_at = false, .unit = options.unit, .threads = 1}),
+      1);
+  rounds.run({.clusters = wanted, .max_triangles = 2 * options.triangles});
+  std::vector<std::uint32_t> number(map.count);
+  std::uint32_t count = 0;
+  for (const std::uint32_t c : rounds.alive()) number[c] = count++;
+  for (std::uint32_t c = 0; c < map.count; ++c) number[c] = number[rounds.cluster_of(c)];
+  for (std::size_t i = 0; i < map.cluster_of.size(); ++i)
+    if (map.cluster_of[i] != kNone) cluster_of[i] = number[map.cluster_of[i]];
+  return count;
+}
 
 }  // namespace
 
 std::uint32_t seed_clusters(const SurfaceView& surface, const EdgeLinks& links,
-                            std::span<std::uint32_t> cluster_of, std::uint32_t count, int threads) {
+                            const SeedOptions& options, std::span<std::uint32_t> cluster_of,
+                            std::uint32_t count) {
   const std::uint32_t n = surface.triangle_count();
   std::vector<std::uint32_t> counts((n + kPiece - 1) / kPiece);
   std::vector<std::uint8_t> is_old(n);
-  parallel_for(threads, n, kPiece, [&](std::size_t begin, std::size_t end) {
+  parallel_for(options.threads, n, kPiece, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) is_old[t] = cluster_of[t] != kNone;
-    Seeder seeder(surface, links, cluster_of, static_cast<std::uint32_t>(begin));
-    counts[begin / kPiece] = seeder.run();
+    const auto first = static_cast<std::uint32_t>(begin);
+    Seeder seeder(surface, links, cluster_of, first);
+    const std::uint32_t seeds = seeder.run();
+    const ClusterMap map{seeder.seeds(), seeds, first};
+    counts[begin / kPiece] =
+        merge_seeds(surface, links, map, options, cluster_of.subspan(begin, end - begin));
   });
   for (std::uint32_t& c : counts) {
     const std::uint32_t first = count;
     count += c;
     c = first;
   }
-  parallel_for(threads, n, kPiece, [&](std::size_t begin, std::size_t end) {
+  parallel_for(options.threads, n, kPiece, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t)
       if (!is_old[t]) cluster_of[t] += counts[begin / kPiece];
   });

@@ -1,19 +1,26 @@
-// Small compact clusters to begin merging with: stars of points, and what is left between them.
+// Small compact clusters to begin merging with.
 #pragma once
 
 #include <varifold/partition/edge_links.h>
 #include <varifold/partition/surface_view.h>
 #include <cstdint>
-#include <vector>
+#include <span>
 
 namespace varifold {
 
+struct SeedOptions {
+  std::uint32_t triangles = 32;  ///< of a cluster, in the mean and roughly; twice as many at most
+  float unit = 1;                ///< see length_unit()
+  int threads = 0;
+};
+
 /// Numbers the triangles whose `cluster_of` is kNone by clusters, from `count` on; returns how many
-/// clusters there are then. A cluster is all triangles around an inner point (four to eight) and
-/// what is left beside them, ten at most, or what is left alone; it is a disc, of one material.
-/// Other triangles are not touched. The same result for any number of threads. O(n).
+/// clusters there are then. Seeds are all triangles around a point and what is left beside them;
+/// those are merged as MergeRounds does, but piece by piece of the triangles in their order. So
+/// clusters are discs of one material, and none crosses from piece to piece. The same result for
+/// any number of threads. O(n).
 [[nodiscard]] std::uint32_t seed_clusters(const SurfaceView& surface, const EdgeLinks& links,
-                                          std::span<std::uint32_t> cluster_of, std::uint32_t count,
-                                          int threads);
+                                          const SeedOptions& options,
+                                          std::span<std::uint32_t> cluster_of, std::uint32_t count);
 
 }  // namespace varifold
