@@ -37,7 +37,7 @@ struct Builder {
   [[nodiscard]] Vec3 side(std::uint32_t from, std::uint32_t to) const {
     return (0.5f * surface.positions[to] - 0.5f * surface.positions[from]) * scale;
   }
-  void list_borders(ClusterGraph& graph) const;
+  void list_borders(ClusterGraph& graph, std::span<const float> areas) const;
   void describe(ClusterGraph& graph, std::uint32_t cluster, std::vector<std::uint32_t>& ends) const;
 };
 
@@ -52,6 +52,12 @@ void add_common_edge(ClusterLink* row, std::uint32_t& count, std::uint32_t other
   row[count++] = {other, length, 1};
 }
 
+// Sums of this are equal where the points are, and hardly ever else.
+std::uint64_t mixed(std::uint32_t point) {
+  const std::uint64_t x = point * 0x9e3779b97f4a7c15u;
+  return x ^ (x >> 32);
+}
+
 // The row of points holds the half-edges on the border before.
 void Builder::describe(ClusterGraph& graph, std::uint32_t cluster,
                        std::vector<std::uint32_t>& ends) const {
@@ -60,48 +66,54 @@ void Builder::describe(ClusterGraph& graph, std::uint32_t cluster,
   Row& point_row = graph.point_rows[cluster];
   std::uint32_t* points = graph.points.data() + point_row.begin;
   ends.clear();
+  std::uint64_t starts = 0, stops = 0;
   for (std::uint32_t i = 0; i < point_row.count; ++i) {
     const std::uint32_t h = points[i];
     const float edge = length(h);
     shape.outline += edge;
     ends.push_back(surface.corners[h]);
-    ends.push_back(surface.corners[next_in_triangle(h)]);
+    starts += mixed(surface.corners[h]);
+    stops += mixed(surface.corners[next_in_triangle(h)]);
     const std::uint32_t other = beyond(h);
     if (other == kNone) continue;
     add_common_edge(graph.links.data() + link_row.begin, link_row.count, other, edge);
   }
+  if (starts != stops)  // not a sum of loops that all run the same way: look at both ends
+    for (std::uint32_t i = 0; i < point_row.count; ++i)
+      ends.push_back(surface.corners[next_in_triangle(points[i])]);
   std::sort(ends.begin(), ends.end());
   point_row.count =
       static_cast<std::uint32_t>(std::unique_copy(ends.begin(), ends.end(), points) - points);
 }
 
-// Counts the half-edges on the border of every cluster, then puts them in its row of points. No row
-// of links or points will be longer.
-void Builder::list_borders(ClusterGraph& graph) const {
+// Lists the half-edges on the border of every cluster in its row of points. No row of links or
+// points will be longer.
+void Builder::list_borders(ClusterGraph& graph, std::span<const float> areas) const {
+  std::vector<std::uint32_t> borders;
   const auto n = static_cast<std::uint32_t>(map.cluster_of.size());
   for (std::uint32_t i = 0; i < n; ++i) {
     const std::uint32_t cluster = map.cluster_of[i], t = map.first + i;
     if (cluster == kNone) continue;
-    ClusterShape& shape = graph.shapes[cluster];
-    shape.area += area(t);
-    ++shape.triangles;
-    for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h)
-      graph.point_rows[cluster].begin += beyond(h) != cluster;
+    ++graph.shapes[cluster].triangles;
+    if (areas.empty()) graph.shapes[cluster].area += area(t);
+    for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
+      if (beyond(h) == cluster) continue;
+      borders.push_back(h);
+      ++graph.point_rows[cluster].begin;
+    }
   }
   std::uint32_t total = 0;
   for (std::uint32_t c = 0; c < map.count; ++c) {
+    if (!areas.empty()) graph.shapes[c].area = areas[c];
     const std::uint32_t places = graph.point_rows[c].begin;
     graph.point_rows[c].begin = graph.link_rows[c].begin = total;
     total += places;
   }
   graph.links.resize(total);
   graph.points.resize(total);
-  for (std::uint32_t i = 0; i < n; ++i) {
-    const std::uint32_t cluster = map.cluster_of[i], t = map.first + i;
-    if (cluster == kNone) continue;
-    Row& row = graph.point_rows[cluster];
-    for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h)
-      if (beyond(h) != cluster) graph.points[row.begin + row.count++] = h;
+  for (const std::uint32_t h : borders) {
+    Row& row = graph.point_rows[map.cluster_of[h / 3 - map.first]];
+    graph.points[row.begin + row.count++] = h;
   }
 }
 
@@ -123,7 +135,7 @@ ClusterGraph build_cluster_graph(const SurfaceView& surface, const EdgeLinks& li
   graph.shapes.resize(map.count);
   graph.link_rows.resize(map.count);
   graph.point_rows.resize(map.count);
-  builder.list_borders(graph);
+  builder.list_borders(graph, options.areas);
   parallel_for(options.threads, map.count, kGrain, [&](std::size_t begin, std::size_t end) {
     std::vector<std::uint32_t> ends;
     for (auto c = static_cast<std::uint32_t>(begin); c < end; ++c) builder.describe(graph, c, ends);

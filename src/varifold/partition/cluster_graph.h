@@ -68,6 +68,8 @@ struct GraphOptions {
   /// surface.
   bool count_clusters_at = true;
   float unit = 1;  ///< see length_unit()
+  /// Per cluster, where they are known: the area, in squares of the unit.
+  std::span<const float> areas = {};
   int threads = 0;
 };
 

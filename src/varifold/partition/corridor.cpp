@@ -10,10 +10,8 @@ namespace {
 // What counts as shorter: more than the rounding of sums along a path.
 constexpr float kShorter = 1 - 1e-5f;
 
-// Squares of floats could run over.
 float distance(const PatchedSurface& patched, std::uint32_t p, std::uint32_t q) {
-  return static_cast<float>(
-      glm::distance(DVec3(patched.surface.positions[p]), DVec3(patched.surface.positions[q])));
+  return glm::distance(patched.surface.positions[p], patched.surface.positions[q]);
 }
 
 float length(const PatchedSurface& patched, const std::vector<std::uint32_t>& path) {

@@ -12,7 +12,7 @@ namespace varifold {
 namespace {
 
 constexpr std::size_t kGrain = 4096;
-constexpr std::uint32_t kBoundSamples = 1024;
+constexpr std::uint32_t kBoundSamples = 256;
 constexpr float kBoundQuantile = 0.25f;
 constexpr float kClearlyMore = 1.001f;  // than rounding does
 constexpr std::uint32_t kLongRow = 64;

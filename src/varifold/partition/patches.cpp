@@ -22,11 +22,12 @@ std::uint32_t max_triangles(std::uint32_t triangles_per_patch) {
       std::min(kMaxPatchExcess * static_cast<float>(triangles_per_patch), 1e9f));
 }
 
-// Glued triangles and small clusters of the rest, but nothing of small regions. Returns how many.
-std::uint32_t first_clusters(const SurfaceView& surface, const EdgeLinks& links,
-                             const TriangleGroups& glued, const TriangleGroups& small,
-                             const PartitionOptions& options, std::span<std::uint32_t> cluster_of) {
+// Glued triangles and small clusters of the rest, but nothing of small regions.
+SeedClusters first_clusters(const SurfaceView& surface, const EdgeLinks& links,
+                            const TriangleGroups& glued, const TriangleGroups& small,
+                            const PartitionOptions& options, std::span<std::uint32_t> cluster_of) {
   constexpr std::uint32_t kSmall = kNone - 1;
+  SeedClusters result;
   std::uint32_t count = 0;
   std::vector<std::uint32_t> cluster_of_group(glued.count, kNone);
   for (std::uint32_t t = 0; t < cluster_of.size(); ++t) {
@@ -39,19 +40,24 @@ std::uint32_t first_clusters(const SurfaceView& surface, const EdgeLinks& links,
   if (options.triangles_per_patch >= kMinTrianglesForSeeds) {
     const SeedOptions seeds{std::clamp(options.triangles_per_patch / 4, 16u, kMaxSeedTriangles),
                             length_unit(surface), options.threads};
-    count = seed_clusters(surface, links, seeds, cluster_of, count);
+    result = seed_clusters(surface, links, seeds, cluster_of, count);
   } else {
     for (std::uint32_t& cluster : cluster_of)
       if (cluster == kNone) cluster = count++;
+    result.count = count;
   }
+  if (glued.count > 0) result.areas.clear();  // those of glued triangles are not known
   if (small.count > 0) std::replace(cluster_of.begin(), cluster_of.end(), kSmall, kNone);
-  return count;
+  return result;
 }
 
-void merge_clusters(const SurfaceView& surface, const EdgeLinks& links, const ClusterMap& map,
-                    const PartitionOptions& options, Partition& partition) {
+void merge_clusters(const SurfaceView& surface, const EdgeLinks& links,
+                    const SeedClusters& clusters, const PartitionOptions& options,
+                    Partition& partition) {
+  const ClusterMap map{partition.patch_of, clusters.count};
   ClusterGraph graph = build_cluster_graph(
-      surface, links, map, {.unit = length_unit(surface), .threads = options.threads});
+      surface, links, map,
+      {.unit = length_unit(surface), .areas = clusters.areas, .threads = options.threads});
   if (!links.nonmanifold().empty()) {
     const std::vector<std::int32_t> euler = euler_characteristics(surface, links, map);
     for (std::uint32_t c = 0; c < map.count; ++c) graph.shapes[c].euler = euler[c];
@@ -106,10 +112,9 @@ Partition make_patches(const SurfaceView& surface, const EdgeLinks& links,
       group_small_regions(surface, links, glued, options.triangles_per_patch);
 
   // Merge the rest, then number the patches of small regions behind.
-  const std::uint32_t clusters =
+  const SeedClusters clusters =
       first_clusters(surface, links, glued, small, options, partition.patch_of);
-  if (clusters > 0)
-    merge_clusters(surface, links, {partition.patch_of, clusters}, options, partition);
+  if (clusters.count > 0) merge_clusters(surface, links, clusters, options, partition);
   for (std::uint32_t t = 0; small.count > 0 && t < surface.triangle_count(); ++t)
     if (small.of(t) != kNone) partition.patch_of[t] = partition.patch_count + small.of(t);
   partition.patch_count += small.count;

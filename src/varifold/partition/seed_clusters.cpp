@@ -143,33 +143,33 @@ class Seeder {
   std::vector<std::uint32_t> sizes_;    // per seed
 };
 
-// Merges the seeds of a piece by themselves, as far as it goes; returns how many clusters there
-// are.
-std::uint32_t merge_seeds(const SurfaceView& surface, const EdgeLinks& links, const ClusterMap& map,
-                          const SeedOptions& options, std::span<std::uint32_t> cluster_of) {
-  const std::uint32_t wanted =
-      static_cast<std::uint32_t>(map.cluster_of.size()) / options.triangles + 1;
-  MergeRounds rounds(
-      build_cluster_graph(surface, links, map,
-                          {.count_clusters_at = false, .unit = options.unit, .threads = 1}),
-      1);
-  rounds.run({.clusters = wanted, .max_triangles = 2 * options.triangles});
+// Merges the seeds of a piece by themselves, as far as it goes. Returns the areas of the clusters.
+std::vector<float> merge_seeds(const SurfaceView& surface, const EdgeLinks& links,
+                               const ClusterMap& map, const SeedOptions& options,
+                               std::span<std::uint32_t> cluster_of) {
+  const auto size = static_cast<std::uint32_t>(map.cluster_of.size());
+  const GraphOptions graph{.count_clusters_at = false, .unit = options.unit, .threads = 1};
+  MergeRounds rounds(build_cluster_graph(surface, links, map, graph), 1);
+  rounds.run({.clusters = size / options.triangles + 1, .max_triangles = 2 * options.triangles});
+  std::vector<float> areas;
   std::vector<std::uint32_t> number(map.count);
-  std::uint32_t count = 0;
-  for (const std::uint32_t c : rounds.alive()) number[c] = count++;
+  for (const std::uint32_t c : rounds.alive()) {
+    number[c] = static_cast<std::uint32_t>(areas.size());
+    areas.push_back(rounds.shape(c).area);
+  }
   for (std::uint32_t c = 0; c < map.count; ++c) number[c] = number[rounds.cluster_of(c)];
-  for (std::size_t i = 0; i < map.cluster_of.size(); ++i)
+  for (std::uint32_t i = 0; i < size; ++i)
     if (map.cluster_of[i] != kNone) cluster_of[i] = number[map.cluster_of[i]];
-  return count;
+  return areas;
 }
 
 }  // namespace
 
-std::uint32_t seed_clusters(const SurfaceView& surface, const EdgeLinks& links,
-                            const SeedOptions& options, std::span<std::uint32_t> cluster_of,
-                            std::uint32_t count) {
+SeedClusters seed_clusters(const SurfaceView& surface, const EdgeLinks& links,
+                           const SeedOptions& options, std::span<std::uint32_t> cluster_of,
+                           std::uint32_t count) {
   const std::uint32_t n = surface.triangle_count();
-  std::vector<std::uint32_t> counts((n + kPiece - 1) / kPiece);
+  std::vector<std::vector<float>> areas((n + kPiece - 1) / kPiece);
   std::vector<std::uint8_t> is_old(n);
   parallel_for(options.threads, n, kPiece, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) is_old[t] = cluster_of[t] != kNone;
@@ -177,19 +177,23 @@ std::uint32_t seed_clusters(const SurfaceView& surface, const EdgeLinks& links,
     Seeder seeder(surface, links, cluster_of, first);
     const std::uint32_t seeds = seeder.run();
     const ClusterMap map{seeder.seeds(), seeds, first};
-    counts[begin / kPiece] =
+    areas[begin / kPiece] =
         merge_seeds(surface, links, map, options, cluster_of.subspan(begin, end - begin));
   });
-  for (std::uint32_t& c : counts) {
-    const std::uint32_t first = count;
-    count += c;
-    c = first;
+
+  // Number the clusters of all pieces one after the other.
+  SeedClusters result;
+  std::vector<std::uint32_t> first_of(areas.size());
+  for (std::size_t p = 0; p < areas.size(); ++p) {
+    first_of[p] = count + static_cast<std::uint32_t>(result.areas.size());
+    result.areas.insert(result.areas.end(), areas[p].begin(), areas[p].end());
   }
+  result.count = count + static_cast<std::uint32_t>(result.areas.size());
   parallel_for(options.threads, n, kPiece, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t)
-      if (!is_old[t]) cluster_of[t] += counts[begin / kPiece];
+      if (!is_old[t]) cluster_of[t] += first_of[begin / kPiece];
   });
-  return count;
+  return result;
 }
 
 }  // namespace varifold

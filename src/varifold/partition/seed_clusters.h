@@ -5,6 +5,7 @@
 #include <varifold/partition/surface_view.h>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace varifold {
 
@@ -14,13 +15,17 @@ struct SeedOptions {
   int threads = 0;
 };
 
-/// Numbers the triangles whose `cluster_of` is kNone by clusters, from `count` on; returns how many
-/// clusters there are then. Seeds are all triangles around a point and what is left beside them;
-/// those are merged as MergeRounds does, but piece by piece of the triangles in their order. So
-/// clusters are discs of one material, and none crosses from piece to piece. The same result for
-/// any number of threads. O(n).
-[[nodiscard]] std::uint32_t seed_clusters(const SurfaceView& surface, const EdgeLinks& links,
-                                          const SeedOptions& options,
-                                          std::span<std::uint32_t> cluster_of, std::uint32_t count);
+struct SeedClusters {
+  std::uint32_t count = 0;   ///< with those that there were before
+  std::vector<float> areas;  ///< of the new ones, in squares of the unit
+};
+
+/// Numbers the triangles whose `cluster_of` is kNone by clusters, from `count` on. Seeds are all
+/// triangles around a point and what is left beside them; those are merged as MergeRounds does, but
+/// piece by piece of the triangles in their order. So clusters are discs of one material, and none
+/// crosses from piece to piece. The same result for any number of threads. O(n).
+[[nodiscard]] SeedClusters seed_clusters(const SurfaceView& surface, const EdgeLinks& links,
+                                         const SeedOptions& options,
+                                         std::span<std::uint32_t> cluster_of, std::uint32_t count);
 
 }  // namespace varifold
