@@ -58,6 +58,7 @@ class Smoother {
         max_triangles_(patches.max_triangles),
         sizes_(patches.count, 0),
         checked_at_(patched.borders.stretches.size(), 0),
+        is_blocked_(patched.borders.stretches.size(), 1),
         changed_at_(patches.count, 1) {
     for (const std::uint32_t patch : patches.patch_of) ++sizes_[patch];
   }
@@ -100,12 +101,15 @@ class Smoother {
     return steps;
   }
 
-  // Shortens a stretch if one of its patches has changed since it was looked at last.
+  // Shortens a stretch if it may be, because one of its patches has changed since the last time.
   bool look_at(PathMover& mover, std::uint32_t s, std::uint32_t step) {
     const Stretch& stretch = patched_.borders.stretches[s];
-    if (std::max(changed_at_[stretch.a], changed_at_[stretch.b]) <= checked_at_[s]) return false;
+    if (!is_blocked_[s] ||
+        std::max(changed_at_[stretch.a], changed_at_[stretch.b]) <= checked_at_[s])
+      return false;
     checked_at_[s] = step;
     if (mover.shorten(s)) changed_at_[stretch.a] = changed_at_[stretch.b] = step;
+    is_blocked_[s] = mover.is_blocked();
     return true;
   }
 
@@ -114,6 +118,7 @@ class Smoother {
   std::uint32_t step_ = 1;
   std::vector<std::uint32_t> sizes_;       // triangles per patch
   std::vector<std::uint32_t> checked_at_;  // the step that a stretch was looked at last
+  std::vector<std::uint8_t> is_blocked_;   // whether a stretch waits for a change of its patches
   std::vector<std::uint32_t> changed_at_;  // the step that a patch changed last
 };
 

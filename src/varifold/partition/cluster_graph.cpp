@@ -89,8 +89,9 @@ void Builder::describe(ClusterGraph& graph, std::uint32_t cluster,
 // Lists the half-edges on the border of every cluster in its row of points. No row of links or
 // points will be longer.
 void Builder::list_borders(ClusterGraph& graph, std::span<const float> areas) const {
-  std::vector<std::uint32_t> borders;
   const auto n = static_cast<std::uint32_t>(map.cluster_of.size());
+  std::vector<std::uint32_t> borders;
+  borders.reserve(n);
   for (std::uint32_t i = 0; i < n; ++i) {
     const std::uint32_t cluster = map.cluster_of[i], t = map.first + i;
     if (cluster == kNone) continue;

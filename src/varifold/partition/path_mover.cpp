@@ -9,8 +9,13 @@ bool PathMover::shorten(std::uint32_t stretch) {
   bool is_shorter = false;
   for (bool again = true; again;) {
     again = corridor_.find_shorter(patched_, stretch);
+    is_blocked_ = !again && corridor_.is_blocked();
     // Where the path is not sound, its points are fixed now, and there may be another.
-    if (again && is_sound_path()) is_shorter |= again = move(stretch);
+    if (again && is_sound_path()) {
+      again = move(stretch);
+      is_shorter |= again;
+      is_blocked_ = !again;
+    }
     corridor_.clear(patched_);
   }
   return is_shorter;
@@ -28,6 +33,7 @@ bool PathMover::move(std::uint32_t number) {
     patched_.borders.use_of[stretch.path[i]] = PointUse::kInside;
   for (std::size_t i = 1; i + 1 < path.size(); ++i) patched_.borders.use_of[path[i]] = number;
   stretch.path = path;
+  stretch.end_spokes = corridor_.end_spokes();
   return true;
 }
 

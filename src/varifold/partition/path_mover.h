@@ -18,6 +18,8 @@ class PathMover {
 
   /// Shortens the stretch until nothing gets shorter; whether anything did.
   bool shorten(std::uint32_t stretch);
+  /// Whether the last stretch may still get shorter once its patches change.
+  [[nodiscard]] bool is_blocked() const { return is_blocked_; }
 
  private:
   using Places = Corridor::Places;
@@ -49,6 +51,7 @@ class PathMover {
   std::span<std::uint32_t> sizes_;
   std::uint32_t max_triangles_;
   Corridor corridor_;
+  bool is_blocked_ = false;
   std::vector<std::uint32_t> changed_;
 };
 
