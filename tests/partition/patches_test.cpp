@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <numeric>
 #include <set>
+#include <string_view>
 
 namespace varifold::test {
 namespace {
@@ -160,6 +161,28 @@ TEST(Patches, DoNotDependOnThreads) {
         EXPECT_EQ(one.border_length, more.border_length);
       }
     }
+}
+
+TEST(Patches, CanBeCancelledAtEveryReport) {
+  const TestSurface surface = make_surface("planet", planet({}));
+  int reports = 0;
+  float last = -1;
+  const auto count = [&](std::string_view stage, float done) {
+    EXPECT_EQ(stage, "patches");
+    EXPECT_GT(done, last);
+    last = done;
+    ++reports;
+    return true;
+  };
+  EXPECT_FALSE(make_patches(surface.view(), {.progress = count}).cancelled);
+  ASSERT_GE(reports, 2);
+  for (int stop = 1; stop <= reports; ++stop) {
+    int left = stop;
+    const auto cancel = [&](std::string_view, float) { return --left > 0; };
+    const Partition partition = make_patches(surface.view(), {.progress = cancel});
+    EXPECT_TRUE(partition.cancelled);
+    EXPECT_TRUE(partition.patch_of.empty());
+  }
 }
 
 TEST(Patches, OfScaledSurfacesAreTheSame) {

@@ -15,6 +15,7 @@ namespace {
 
 // Patches of fewer triangles are merged from single ones.
 constexpr std::uint32_t kMinTrianglesForSeeds = 64;
+constexpr std::uint32_t kMinTrianglesForGrowth = 128;
 constexpr std::uint32_t kMaxSeedTriangles = 100;
 
 std::uint32_t max_triangles(std::uint32_t triangles_per_patch) {
@@ -38,8 +39,11 @@ SeedClusters first_clusters(const SurfaceView& surface, const EdgeLinks& links,
     cluster_of[t] = cluster;
   }
   if (options.triangles_per_patch >= kMinTrianglesForSeeds) {
-    const SeedOptions seeds{std::clamp(options.triangles_per_patch / 4, 16u, kMaxSeedTriangles),
-                            length_unit(surface), options.threads};
+    const SeedOptions seeds{
+        .triangles = std::clamp(options.triangles_per_patch / 4, 16u, kMaxSeedTriangles),
+        .grow_to = options.triangles_per_patch >= kMinTrianglesForGrowth ? 18u : 0u,
+        .unit = length_unit(surface),
+        .threads = options.threads};
     result = seed_clusters(surface, links, seeds, cluster_of, count);
   } else {
     for (std::uint32_t& cluster : cluster_of)
@@ -104,6 +108,13 @@ Partition make_patches(const SurfaceView& surface, const EdgeLinks& links,
   Partition partition;
   partition.patch_of.resize(surface.triangle_count());
   if (surface.triangle_count() == 0) return partition;
+  const auto is_cancelled = [&](float done) {
+    if (report(options.progress, "patches", done)) return false;
+    partition = {};
+    partition.cancelled = true;
+    return true;
+  };
+  if (is_cancelled(0)) return partition;
 
   // Set aside what merging cannot handle.
   const TriangleGroups glued =
@@ -114,21 +125,23 @@ Partition make_patches(const SurfaceView& surface, const EdgeLinks& links,
   // Merge the rest, then number the patches of small regions behind.
   const SeedClusters clusters =
       first_clusters(surface, links, glued, small, options, partition.patch_of);
+  if (is_cancelled(0.5f)) return partition;
   if (clusters.count > 0) merge_clusters(surface, links, clusters, options, partition);
   for (std::uint32_t t = 0; small.count > 0 && t < surface.triangle_count(); ++t)
     if (small.of(t) != kNone) partition.patch_of[t] = partition.patch_count + small.of(t);
   partition.patch_count += small.count;
 
+  if (is_cancelled(0.7f)) return partition;
   measure_rough(surface, links, partition);
   partition.border_edges = partition.rough_border_edges;
   partition.border_length = partition.rough_border_length;
   if (options.smooth) {
     const SmoothedPatches patches{partition.patch_of, partition.patch_count,
                                   max_triangles(options.triangles_per_patch)};
-    const SmoothingReport report = smooth_borders(surface, links, patches, options.threads);
-    partition.smoothing_rounds = report.rounds;
-    partition.border_edges -= static_cast<std::uint64_t>(report.edges);
-    partition.border_length -= report.length;
+    const SmoothingReport shorter = smooth_borders(surface, links, patches, options.threads);
+    partition.smoothing_rounds = shorter.rounds;
+    partition.border_edges -= static_cast<std::uint64_t>(shorter.edges);
+    partition.border_length -= shorter.length;
   }
   // What merging counted holds where triangles meet in pairs; smoothing keeps it.
   if (small.count > 0 || !links.nonmanifold().empty())

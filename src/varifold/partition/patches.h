@@ -18,7 +18,7 @@ struct PartitionOptions {
   std::uint32_t triangles_per_patch = 1000;  ///< the mean that is aimed at; at least 1
   bool smooth = true;                        ///< shorten the borders between the patches
   int threads = 0;                           ///< 0 = all
-  Progress progress;
+  Progress progress;                         ///< stage "patches"
 };
 
 struct Partition {

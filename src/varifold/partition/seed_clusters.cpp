@@ -20,13 +20,14 @@ constexpr std::uint32_t kMaxSeed = 10;
 
 class Seeder {
  public:
-  // Of the triangles of a piece those whose `cluster_of` is kNone.
+  // Of the triangles of a piece, those whose `cluster_of` is kNone.
   Seeder(const SurfaceView& surface, const EdgeLinks& links,
-         std::span<const std::uint32_t> cluster_of, std::uint32_t begin)
+         std::span<const std::uint32_t> cluster_of, std::uint32_t begin, std::uint32_t grow_to)
       : surface_(surface),
         links_(links),
         begin_(begin),
-        seed_of_(std::min<std::size_t>(kPiece, surface.triangle_count() - begin)) {
+        seed_of_(std::min<std::size_t>(kPiece, surface.triangle_count() - begin)),
+        grow_to_(grow_to) {
     for (std::uint32_t i = 0; i < seed_of_.size(); ++i)
       seed_of_[i] = cluster_of[begin_ + i] == kNone ? kFree : kNone;
   }
@@ -81,8 +82,23 @@ class Seeder {
       for (std::uint32_t k = 0; k < i; ++k)
         if (rim[i] == rim[k]) return;
     for (std::uint32_t i = 0; i < size; ++i) seed_of_[star[i] - begin_] = count_;
-    ++count_;
     sizes_.push_back(size);
+    members_.assign(star.begin(), star.begin() + size);
+    grow();
+    ++count_;
+  }
+
+  // Adds what is free around the last seed, in order of the distance from its middle.
+  void grow() {
+    for (std::size_t i = 0; i < members_.size(); ++i)
+      for (std::uint32_t h = 3 * members_[i]; h < 3 * members_[i] + 3; ++h) {
+        if (members_.size() >= grow_to_) return;
+        const std::uint32_t g = links_.across_in_material(h);
+        if (g == kNone || !is_free(g / 3) || !stays_disc(g, count_)) continue;
+        seed_of_[g / 3 - begin_] = count_;
+        ++sizes_[count_];
+        members_.push_back(g / 3);
+      }
   }
 
   // Gives a triangle to the neighbouring cluster at its longest edge that stays a disc by that.
@@ -93,7 +109,7 @@ class Seeder {
       const std::uint32_t g = links_.across_in_material(h);
       if (g == kNone) continue;
       const std::uint32_t cluster = seed_of(g / 3);
-      if (cluster >= kFree || sizes_[cluster] >= kMaxSeed) continue;
+      if (cluster >= kFree || sizes_[cluster] >= std::max(kMaxSeed, 2 * grow_to_)) continue;
       // The sum of the extents will do, and has no squares that run over.
       const Vec3 edge = glm::abs(0.5f * surface_.positions[corner(next_in_triangle(h))] -
                                  0.5f * surface_.positions[corner(h)]);
@@ -141,6 +157,8 @@ class Seeder {
   std::uint32_t begin_, count_ = 0;
   std::vector<std::uint32_t> seed_of_;  // per triangle of the piece
   std::vector<std::uint32_t> sizes_;    // per seed
+  std::vector<std::uint32_t> members_;  // of the last seed
+  std::uint32_t grow_to_;
 };
 
 // Merges the seeds of a piece by themselves, as far as it goes. Returns the areas of the clusters.
@@ -174,7 +192,7 @@ SeedClusters seed_clusters(const SurfaceView& surface, const EdgeLinks& links,
   parallel_for(options.threads, n, kPiece, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) is_old[t] = cluster_of[t] != kNone;
     const auto first = static_cast<std::uint32_t>(begin);
-    Seeder seeder(surface, links, cluster_of, first);
+    Seeder seeder(surface, links, cluster_of, first, options.grow_to);
     const std::uint32_t seeds = seeder.run();
     const ClusterMap map{seeder.seeds(), seeds, first};
     areas[begin / kPiece] =

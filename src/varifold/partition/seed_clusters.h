@@ -11,6 +11,7 @@ namespace varifold {
 
 struct SeedOptions {
   std::uint32_t triangles = 32;  ///< of a cluster, in the mean and roughly; twice as many at most
+  std::uint32_t grow_to = 18;    ///< triangles of a seed; fewer than a star has: stars only
   float unit = 1;                ///< see length_unit()
   int threads = 0;
 };
@@ -21,9 +22,10 @@ struct SeedClusters {
 };
 
 /// Numbers the triangles whose `cluster_of` is kNone by clusters, from `count` on. Seeds are all
-/// triangles around a point and what is left beside them; those are merged as MergeRounds does, but
-/// piece by piece of the triangles in their order. So clusters are discs of one material, and none
-/// crosses from piece to piece. The same result for any number of threads. O(n).
+/// triangles around a point, some around those, and what is left between; they are merged as
+/// MergeRounds does, but piece by piece of the triangles in their order. So clusters are discs of
+/// one material, and none crosses from piece to piece. The same result for any number of threads.
+/// O(n).
 [[nodiscard]] SeedClusters seed_clusters(const SurfaceView& surface, const EdgeLinks& links,
                                          const SeedOptions& options,
                                          std::span<std::uint32_t> cluster_of, std::uint32_t count);
