@@ -133,6 +133,10 @@ PatchLevels make_levels(const SurfaceView& surface, const EdgeLinks& links, Part
     for (std::uint32_t i = 0; i < rounds.alive().size(); ++i) number[rounds.alive()[i]] = i;
     std::vector<std::uint32_t>& parent = levels.parent.emplace_back();
     parent.reserve(before.size());
+    if (rounds.alive().size() == before.size()) {  // only where lengths are not finite
+      parent.assign(before.size(), 0);
+      break;
+    }
     for (const std::uint32_t c : before) parent.push_back(number[rounds.cluster_of(c)]);
   }
   levels.parent.emplace_back(1, kNone);
