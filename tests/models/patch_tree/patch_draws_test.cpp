@@ -179,7 +179,7 @@ TEST(PatchMorph, WhatMeetsKeepsMeeting) {
     }
   }
   EXPECT_GT(shared, 100000u);
-  EXPECT_GT(blended, 10000u);
+  EXPECT_GT(blended, 5000u);
 }
 
 // Every edge is passed as often one way as the other, so a ray from outside never sees the inside
