@@ -10,6 +10,8 @@
 #include <varifold/mesh/generators.h>
 #include <varifold/models/lodstrips/build.h>
 #include <varifold/models/mts/build.h>
+#include <varifold/models/patch_tree/build.h>
+#include <varifold/models/patch_tree/encoding.h>
 #include <varifold/models/pm/build.h>
 #include <varifold/models/pm/encoding.h>
 #include <varifold/models/strips/build.h>
@@ -128,6 +130,20 @@ bool put_view_dependent_meshes(const std::filesystem::path& folder) {
   return done;
 }
 
+bool put_patch_trees(const std::filesystem::path& folder) {
+  bool done = true;
+  for (const auto& [name, mesh] :
+       {std::pair("sphere", seamed_sphere({.triangles = 200})), std::pair("all", with_everything()),
+        std::pair("planet", planet({{.triangles = 320}, 0.12f, false})),
+        std::pair("plane", plane({.triangles = 72}))}) {
+    PatchTreeOptions options;
+    options.triangles_per_patch = 12;
+    const auto built = build_patch_tree(mesh, options);
+    done = built && put(folder / name, encode_patch_tree(built->tree)) && done;
+  }
+  return done;
+}
+
 // Small, so that a fuzzer gets far in a second.
 bool put_strips(const std::filesystem::path& folder) {
   bool done = true;
@@ -192,6 +208,7 @@ int main(int argc, char** argv) {
   done = put(folder / "container" / "none", *encode_container(fourcc("KIND"), {})) && done;
   done = put_progressive_meshes(folder / "progressive_mesh") && done;
   done = put_view_dependent_meshes(folder / "vdpm") && done;
+  done = put_patch_trees(folder / "patch_tree") && done;
   done = put_strips(folder) && done;
   done = put_camera_paths(folder / "camera_path") && done;
   return done ? 0 : 1;

@@ -59,6 +59,8 @@ Json frame_list(std::span<const CameraFrame> frames, bool is_drawn) {
                     {"tolerance_pixels", frame.tolerance},
                     {"indices_submitted", frame.indices},
                     {"strips", frame.measures.strips},
+                    {"patches", frame.patches},
+                    {"from_roots_ms", 1e3 * frame.from_roots_seconds},
                     {"changed_bytes", frame.changed_bytes},
                     {"adapt_ms", 1e3 * frame.adapt_seconds},
                     {"draw_list_ms", 1e3 * frame.list_seconds},
@@ -145,6 +147,20 @@ void add_fronts(const CameraTest& test, std::span<const CameraFrame> frames, Jso
   result["goal_error_max"] = test.triangles ? Json(greatest(frames, off_goal)) : Json();
 }
 
+// Null where a model has no patches.
+void add_patches(std::span<const CameraFrame> frames, Json& result) {
+  std::vector<double> seconds;
+  for (const CameraFrame& frame : frames.subspan(1)) seconds.push_back(frame.from_roots_seconds);
+  const double patches = sum_of(frames, [](const auto& f) { return f.patches; });
+  if (patches == 0) {
+    for (const char* const key : {"patches_mean", "from_roots_ms_p50", "from_roots_ms_p99"})
+      result[key] = Json();
+    return;
+  }
+  result["patches_mean"] = patches / static_cast<double>(frames.size());
+  add_percentiles("from_roots_ms", seconds, result);
+}
+
 void add_jumps(std::span<const CameraFrame> frames, Json& result) {
   const auto add = [&](const std::string& name, const auto& value) {
     std::size_t worst = 0;
@@ -224,6 +240,7 @@ Json camera_result(const CameraTest& test, const CameraPath& path,
               {"seconds_drawing", is_drawn ? Json(drawing) : Json()}};
   add_times(frames, result);
   add_fronts(test, frames, result);
+  add_patches(frames, result);
   add_jumps(frames, result);
   add_lists(test, frames, result);
   result["indices_submitted"] =
@@ -257,6 +274,15 @@ void ListMeasures::next(const DrawList& list, CameraFrame& frame) {
 
 std::string camera_row(const Json& result) {
   const auto number = [&](const char* key) { return result[key].get<double>(); };
+  if (!result["patches_mean"].is_null())
+    return fmt::format(
+        "{}: {} frames, {:.0f} triangles in {:.0f} patches, {:.4f} ms a frame ({:.4f} at 99 %), "
+        "{:.4f} ms from the roots, {:.1f} splits and {:.1f} merges a frame",
+        result["kind"].get<std::string>(), result["frames"].get<std::uint64_t>(),
+        number("triangles_mean"), number("patches_mean"), number("adapt_ms_p50"),
+        number("adapt_ms_p99"), number("from_roots_ms_p50"),
+        number("splits") / std::max(1.0, number("frames") - 1),
+        number("collapses") / std::max(1.0, number("frames") - 1));
   return fmt::format(
       "{}: {} frames, {:.0f} triangles, {:.3f} ms a frame ({:.3f} at 99 %), {:.1f} ns a vertex, "
       "{:.0f} splits and {:.0f} collapses a frame, surface jumps {:.2f} pixels at most",

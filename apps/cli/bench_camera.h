@@ -43,6 +43,8 @@ void add_camera_test_options(CLI::App& command, CameraTest& test);
 /// What happened at one frame.
 struct CameraFrame {
   double adapt_seconds = 0, list_seconds = 0, draw_seconds = 0;
+  double from_roots_seconds = 0;  // of choosing the same front without the one before
+  std::uint32_t patches = 0;
   std::uint32_t splits = 0, collapses = 0, forced_splits = 0, vertices = 0, triangles = 0;
   std::uint32_t moving = 0;  // vertices that morphs move
   float tolerance = 0;
@@ -82,6 +84,12 @@ concept MakesStrips = requires(InstanceOf<Model>& instance) {
   { instance.draw_strips() } -> std::same_as<DrawList>;
 };
 
+/// Models of patches choose fronts from the roots, too.
+template <class Model>
+concept DrawsPatches = requires(const InstanceOf<Model>& instance) {
+  instance.front().draws();
+};
+
 /// Counts what a list draws and, after the lists of the frames before, what of it is new.
 class ListMeasures {
  public:
@@ -114,6 +122,7 @@ class CameraWalk {
     std::size_t instance_bytes = 0;
     if (auto timed = time(*cameras, draw, frames, instance_bytes); !timed)
       return tl::unexpected(timed.error());
+    if constexpr (DrawsPatches<Model>) time_from_roots(*cameras, frames);
     measure(*cameras, frames);
     Json result{{"kind", ModelKind<Model>::kName}};
     result.update(camera_result(test_, path, frames, static_cast<bool>(draw)));
@@ -146,6 +155,29 @@ class CameraWalk {
     return {};
   }
 
+  // The paper's way, after one frame for the memory.
+  void time_from_roots(std::span<const Camera> cameras, std::vector<CameraFrame>& frames) {
+    InstanceOf<Model> instance(model_);
+    PatchFrontOptions options;
+    options.limits = {test_.tolerance(), test_.triangles.value_or(kNone)};
+    (void)instance.adapt(criteria_of(cameras[0]), options, true);
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+      const RefineCriteria criteria = criteria_of(cameras[i]);
+      const Stopwatch adapting;
+      (void)instance.adapt(criteria, options, true);
+      frames[i].from_roots_seconds = adapting.seconds();
+      frames[i].patches = static_cast<std::uint32_t>(instance.front().draws().draws().size());
+    }
+  }
+
+  [[nodiscard]] RefineCriteria criteria_of(const Camera& camera) const {
+    RefineCriteria criteria;
+    criteria.view.emplace(camera);
+    if (test_.no_frustum) criteria.view->outside_weight = 1;
+    if (test_.no_orientation) criteria.view->back_weight = 1;
+    return criteria;
+  }
+
   DrawList list_of(InstanceOf<Model>& instance) const {
     if constexpr (MakesStrips<Model>)
       if (test_.strips) return instance.draw_strips();
@@ -154,7 +186,8 @@ class CameraWalk {
 
   void measure(std::span<const Camera> cameras, std::vector<CameraFrame>& frames) {
     InstanceOf<Model> instance(model_);
-    FrameJumps jumps(collapse_targets(*model_));
+    std::optional<FrameJumps> jumps;
+    if constexpr (UniformModel<Model>) jumps.emplace(collapse_targets(*model_));
     ListMeasures lists;
     for (std::size_t i = 0; i < cameras.size(); ++i) {
       (void)adapt(instance, cameras[i]);
@@ -162,7 +195,7 @@ class CameraWalk {
       lists.next(list, frames[i]);
       std::vector<std::uint32_t> vertices;
       if constexpr (NumbersVertices<Model>) vertices = instance.vertices_of_slots();
-      frames[i].jumps = jumps.next(list, vertices, cameras[i]);
+      if (jumps) frames[i].jumps = jumps->next(list, vertices, cameras[i]);
     }
   }
 
@@ -182,12 +215,8 @@ class CameraWalk {
   CameraFrame adapt(InstanceOf<Model>& instance, const Camera& camera) {
     CameraFrame frame;
     if constexpr (HasFronts<Model>) {
-      RefineCriteria criteria;
-      criteria.view.emplace(camera);
-      if (test_.no_frustum) criteria.view->outside_weight = 1;
-      if (test_.no_orientation) criteria.view->back_weight = 1;
-      const FrontStatistics front =
-          adapt_in_frame(instance, criteria, {test_.tolerance(), test_.triangles.value_or(kNone)});
+      const FrontStatistics front = adapt_in_frame(
+          instance, criteria_of(camera), {test_.tolerance(), test_.triangles.value_or(kNone)});
       frame.splits = front.splits;
       frame.collapses = front.collapses;
       frame.forced_splits = front.forced_splits;

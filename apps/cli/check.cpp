@@ -3,8 +3,10 @@
 #include <apps/cli/input.h>
 #include <fmt/format.h>
 #include <varifold/measure/check_model.h>
+#include <varifold/measure/check_patch_tree.h>
 #include <varifold/measure/surface_distance.h>
 #include <varifold/mesh/validation.h>
+#include <varifold/models/common/uniform_model.h>
 #include <memory>
 #include <string>
 
@@ -89,14 +91,19 @@ template <class Model>
 CommandResult check_levels(const CheckCommand& command, const std::filesystem::path& path,
                            const std::shared_ptr<const Model>& model) {
   if (command.asks_for_fronts && !HasFronts<Model>)
-    wrong_usage(std::string("--fronts is for models with fronts (strips, vdpm), not ") +
+    wrong_usage(std::string("--fronts is for models with fronts (strips, vdpm, patchtree), not ") +
                 ModelKind<Model>::kName);
   const Stopwatch watch;
   ModelCheckOptions options;
   options.fronts = command.fronts;
   options.threads = command.common.threads;
   options.progress = show_progress(path.filename().string());
-  auto check = varifold::check_model<InstanceOf<Model>>(model, options);
+  auto check = [&] {
+    if constexpr (UniformModel<Model>)
+      return varifold::check_model<InstanceOf<Model>>(model, options);
+    else
+      return check_patch_tree(model, options);
+  }();
   end_progress();
   if (!check) return fail_in(path.string(), std::move(check.error()));
   const std::uint32_t finest = model->finest_level();
@@ -109,6 +116,8 @@ CommandResult check_levels(const CheckCommand& command, const std::filesystem::p
   report.count("levels_checked", "levels checked", check->levels_checked);
   report.count("distances_checked", "errors measured again", check->distances_checked);
   if (HasFronts<Model>) report.count("fronts_checked", "fronts checked", check->fronts_checked);
+  if constexpr (!UniformModel<Model>)
+    report.count("collapsed_triangles", "collapsed in fronts", check->collapsed_triangles);
   report.seconds("seconds", "time", watch.seconds());
   return tell(command, check->faults, report);
 }
@@ -141,7 +150,7 @@ void add_check(CLI::App& app, CommandRunner& runner) {
   const CLI::Option* const fronts =
       command
           ->add_option("--fronts", options->fronts,
-                       "Models with fronts (strips, vdpm): how many of them; 0: none")
+                       "Models with fronts (strips, vdpm, patchtree): how many of them; 0: none")
           ->check(CLI::Range(0u, 1'000'000u))
           ->capture_default_str()
           ->type_name("N");

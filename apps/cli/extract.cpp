@@ -69,6 +69,8 @@ CommandResult extract_from(const ExtractCommand& command, const std::shared_ptr<
   }
   report.count("vertices", "vertices", mesh.vertex_count());
   report.count("triangles", "triangles", mesh.triangle_count());
+  if constexpr (requires { instance.collapsed_triangles(); })
+    report.count("collapsed_triangles", "collapsed at borders", instance.collapsed_triangles());
   if (join) report_strips(level.strips, report);
   if (!chosen.is_front) report.length("error", "error", model->error(chosen.level));
   if (camera) {

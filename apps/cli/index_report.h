@@ -14,7 +14,8 @@ namespace varifold::cli {
 /// Kinds whose instances draw strips.
 template <class Model>
 inline constexpr bool kDrawsStrips =
-    !std::is_same_v<Model, ProgressiveMesh> && !std::is_same_v<Model, ViewDependentMesh>;
+    !std::is_same_v<Model, ProgressiveMesh> && !std::is_same_v<Model, ViewDependentMesh> &&
+    !std::is_same_v<Model, PatchTree>;
 
 /// The strips of a draw list as one index buffer, by materials.
 [[nodiscard]] JoinedStrips join_drawn(const DrawList& list, StripJoin join);

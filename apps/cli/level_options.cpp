@@ -131,7 +131,7 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
 }
 
 void add_place_options(CLI::App& command, PlaceOptions& options) {
-  const std::string group = "PLACES (models with fronts: strips, vdpm)";
+  const std::string group = "PLACES (models with fronts: strips, vdpm, patchtree)";
   add_vector<Vec4>(command, "--sphere", "X,Y,Z,R", "Full detail in this ball", [&](const Vec4& s) {
     options.sphere = s;
   })->group(group);

@@ -90,7 +90,7 @@ struct ChosenLevel {
 ///
 /// --pixels: the coarsest whose error covers at most so many pixels at the point of the bounds that
 /// is nearest to the eye; with --triangles the coarser of the two.
-template <UniformModel Model>
+template <LeveledModel Model>
 [[nodiscard]] ChosenLevel choose_level(const Model& model, const LevelOptions& options,
                                        const Camera* camera) {
   ChosenLevel chosen{model.finest_level(), 0};
@@ -148,7 +148,7 @@ template <class Model>
     }
   } else if (!places.empty()) {
     wrong_usage(std::string("--sphere, --plane and --light are for models with fronts (strips, "
-                            "vdpm), not ") +
+                            "vdpm, patchtree), not ") +
                 ModelKind<Model>::kName);
   }
   ChosenLevel chosen = choose_level(model, options, camera);

@@ -3,10 +3,13 @@
 #include <apps/cli/input.h>
 #include <apps/cli/level_options.h>
 #include <apps/cli/picture.h>
+#include <varifold/render/colors.h>
 #include <varifold/render/mesh_draw_list.h>
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <span>
+#include <vector>
 
 namespace varifold::cli {
 namespace {
@@ -18,6 +21,7 @@ struct RenderCommand {
   PlaceOptions places;
   std::string input, output, color = "auto";
   bool flat = false, wireframe = false, cull = false, no_occlusion = false;
+  bool no_border_switch = false;
   float wire_width = 1;
   int supersampling = 2;
 };
@@ -45,6 +49,22 @@ struct Scene {
   DrawList list;
   const TriangleMesh* mesh = nullptr;
   std::uint64_t triangles = 0;
+  std::span<const std::uint32_t> patches;  // per range, where a model has patches
+};
+
+// The ranges with a material for each patch, and the colours of those.
+struct PatchColors {
+  std::vector<DrawRange> ranges;
+  std::vector<Vec4> colors;
+
+  explicit PatchColors(const Scene& scene)
+      : ranges(scene.list.ranges.begin(), scene.list.ranges.end()) {
+    for (std::size_t r = 0; r < ranges.size(); ++r) {
+      if (r == 0 || scene.patches[r] != scene.patches[r - 1])
+        colors.emplace_back(linear_from_srgb(strip_color(scene.patches[r])), 1);
+      ranges[r].material = static_cast<std::uint32_t>(colors.size() - 1);
+    }
+  }
 };
 
 CommandResult render_scene(const RenderCommand& command, const Scene& scene, Report& report) {
@@ -57,15 +77,27 @@ CommandResult render_scene(const RenderCommand& command, const Scene& scene, Rep
   style.back_faces = command.cull ? BackFaces::kCulled : BackFaces::kTinted;
   style.wireframe = command.wireframe;
   style.wire_width = command.wire_width;
+  if (command.no_border_switch) {
+    style.back_faces = BackFaces::kSignal;
+    style.back_tint = Vec3(1, 0, 0);
+  }
   const MeshDrawList materials(*scene.mesh);
   style.material_colors = materials.material_colors();
+  DrawList list = scene.list;
+  std::optional<PatchColors> patch_colors;
+  if (command.color == "patch") {
+    patch_colors.emplace(scene);
+    list.ranges = patch_colors->ranges;
+    style.color_mode = ColorMode::kMaterial;
+    style.material_colors = patch_colors->colors;
+  }
 
   auto painter = Painter::create();
   if (!painter) return tl::unexpected(painter.error());
   painter->options().supersampling = command.supersampling;
   painter->options().ambient_occlusion = !command.no_occlusion;
   const Stopwatch watch;
-  if (auto painted = painter->paint(scene.list, *camera, style, output); !painted)
+  if (auto painted = painter->paint(list, *camera, style, output); !painted)
     return tl::unexpected(painted.error());
   report.count("triangles", "triangles", scene.triangles);
   report.set("width", camera->width);
@@ -79,17 +111,30 @@ CommandResult render_scene(const RenderCommand& command, const Scene& scene, Rep
 CommandResult render_mesh(const RenderCommand& command, const std::filesystem::path& input,
                           Report& report) {
   if (!command.level.empty()) wrong_usage(command.input + ": a LEVEL needs a model");
-  if (command.color == "level" || command.color == "strip")
+  if (command.color == "level" || command.color == "strip" || command.color == "patch")
     wrong_usage(command.input + ": --color " + command.color + " needs a model");
+  if (command.no_border_switch) wrong_usage(command.input + ": --no-border-switch needs a model");
   auto imported = read_surface(input);
   if (!imported) return tl::unexpected(imported.error());
   const TriangleMesh mesh = without_unused_vertices(imported->mesh);
-  return render_scene(command, {MeshDrawList(mesh).list(), &mesh, mesh.triangle_count()}, report);
+  return render_scene(command, {MeshDrawList(mesh).list(), &mesh, mesh.triangle_count(), {}},
+                      report);
 }
+
+// Models that are drawn patch by patch, with borders that are switched.
+template <class Model>
+inline constexpr bool kHasPatches = requires(InstanceOf<Model>& instance) {
+  instance.set_switches(true);
+  instance.nodes_of_ranges();
+};
 
 template <class Model>
 CommandResult render_level(const RenderCommand& command, const std::shared_ptr<const Model>& model,
                            Report& report) {
+  if (!kHasPatches<Model> && (command.color == "patch" || command.no_border_switch))
+    wrong_usage(command.input +
+                (command.color == "patch" ? ": --color patch" : ": --no-border-switch") +
+                " is for patch trees, not for kind " + ModelKind<Model>::kName);
   const TriangleMesh& full = model->attributes();
   const auto camera = make_camera(command.view, full.positions);
   if (!camera) return tl::unexpected(camera.error());
@@ -103,7 +148,17 @@ CommandResult render_level(const RenderCommand& command, const std::shared_ptr<c
     report.length("error", "error", model->error(chosen.level));
   }
   report.length("pixel_error", "error in pixels", chosen.pixel_error);
-  return render_scene(command, {instance.draw_list(), &full, chosen.triangles}, report);
+  Scene scene{{}, &full, chosen.triangles, {}};
+  if constexpr (kHasPatches<Model>) {
+    instance.set_switches(!command.no_border_switch);
+    scene.list = instance.draw_list();
+    scene.patches = instance.nodes_of_ranges();
+    report.count("patches", "patches", instance.front().draws().draws().size());
+    report.count("collapsed_triangles", "collapsed at borders", instance.collapsed_triangles());
+  } else {
+    scene.list = instance.draw_list();
+  }
+  return render_scene(command, scene, report);
 }
 
 CommandResult render_model(const RenderCommand& command, const std::filesystem::path& input,
@@ -147,11 +202,15 @@ void add_render(CLI::App& app, CommandRunner& runner) {
       ->check(finite_number())
       ->capture_default_str()
       ->type_name("W");
-  command->add_option("--color", options->color, "auto, plain, material, vertex, level or strip")
-      ->check(CLI::IsMember({"auto", "plain", "material", "vertex", "level", "strip"}))
+  command
+      ->add_option("--color", options->color,
+                   "auto, plain, material, vertex, level, strip or patch (of a patch tree)")
+      ->check(CLI::IsMember({"auto", "plain", "material", "vertex", "level", "strip", "patch"}))
       ->capture_default_str()
       ->type_name("KIND");
   command->add_flag("--cull", options->cull, "Leave out what is seen from behind (else red)");
+  command->add_flag("--no-border-switch", options->no_border_switch,
+                    "Patch trees: leave the cracks where levels meet; back faces are bright red");
   command->add_flag("--no-occlusion", options->no_occlusion, "Without darkened creases");
   command->add_option("--supersampling", options->supersampling, "Shaded samples per axis")
       ->check(CLI::Range(1, 8))

@@ -23,6 +23,10 @@ void add_simplify_flags(CLI::App& command, SimplifyFlags& flags) {
           "With --metric energy: samples for each triangle, beside the vertices (default: 1)")
       ->check(CLI::Range(0.0f, 1000.0f))
       ->type_name("S");
+  add_weight_options(command, flags.weights);
+}
+
+void add_weight_options(CLI::App& command, AttributeWeights& weights) {
   const auto add_weight = [&](const char* name, float& weight, const char* help) {
     command.add_option(name, weight, help)
         ->check(CLI::NonNegativeNumber)
@@ -30,10 +34,10 @@ void add_simplify_flags(CLI::App& command, SimplifyFlags& flags) {
         ->capture_default_str()
         ->type_name("W");
   };
-  add_weight("--normal-weight", flags.weights.normal,
+  add_weight("--normal-weight", weights.normal,
              "What normals count beside distances, as a part of the diagonal; 0: nothing");
-  add_weight("--texcoord-weight", flags.weights.texcoord, "The same for texture coordinates");
-  add_weight("--color-weight", flags.weights.color, "The same for colours");
+  add_weight("--texcoord-weight", weights.texcoord, "The same for texture coordinates");
+  add_weight("--color-weight", weights.color, "The same for colours");
 }
 
 SimplifyOptions simplify_options(const SimplifyFlags& flags, const CommonOptions& common,

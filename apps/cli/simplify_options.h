@@ -18,6 +18,8 @@ struct SimplifyFlags {
   AttributeWeights weights;
 };
 void add_simplify_flags(CLI::App& command, SimplifyFlags& flags);
+/// What attributes count; part of the flags above.
+void add_weight_options(CLI::App& command, AttributeWeights& weights);
 
 /// The library's options, without a target.
 [[nodiscard]] SimplifyOptions simplify_options(const SimplifyFlags& flags,

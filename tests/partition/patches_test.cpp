@@ -72,8 +72,7 @@ TEST(Patches, StayBelowTheCap) {
   for (const TestSurface& surface : partition_surfaces())
     for (const std::uint32_t size : kSizes) {
       SCOPED_TRACE(surface.name + " " + std::to_string(size));
-      const Partition partition =
-          make_patches(surface.view(), {.triangles_per_patch = size, .smooth = false});
+      const Partition partition = make_patches(surface.view(), {.triangles_per_patch = size});
       for (const auto& triangles : triangles_by_label(partition.patch_of, partition.patch_count))
         EXPECT_LE(static_cast<float>(triangles.size()), kMaxPatchExcess * static_cast<float>(size));
     }

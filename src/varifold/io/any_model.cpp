@@ -15,7 +15,7 @@ std::string kind_name(const AnyModel& model) {
 std::string known_kinds() {
   std::string names;
   AllModels::for_each([&]<class Model>() {
-    static_assert(UniformInstance<InstanceOf<Model>, Model>);
+    static_assert(LeveledInstance<InstanceOf<Model>, Model>);
     names += (names.empty() ? "" : ", ") + std::string(ModelKind<Model>::kName);
   });
   return names;

@@ -8,6 +8,8 @@
 #include <varifold/models/lodstrips/lod_strips.h>
 #include <varifold/models/mts/encoding.h>
 #include <varifold/models/mts/instance.h>
+#include <varifold/models/patch_tree/encoding.h>
+#include <varifold/models/patch_tree/instance.h>
 #include <varifold/models/pm/encoding.h>
 #include <varifold/models/pm/instance.h>
 #include <varifold/models/strips/encoding.h>
@@ -26,7 +28,7 @@ namespace varifold {
 
 /// What a file needs to know of a kind of model: its name on the command line, the kind of its
 /// container, the tag of its only chunk, and the functions that read and write that. `kDense` says
-/// that zstd gains nothing.
+/// that it is stored as it is: zstd gains nothing, or stands in the way.
 template <class Model>
 struct ModelKind;
 
@@ -109,6 +111,26 @@ struct ModelKind<ViewDependentMesh> {
   }
 };
 
+template <>
+struct ModelKind<PatchTree> {
+  using Instance = PatchTreeInstance;
+  static constexpr const char* kName = "patchtree";
+  static constexpr std::uint32_t kFourcc = fourcc("ptre");
+  static constexpr std::uint32_t kChunk = fourcc("DATA");
+  /// Patches are to be read one by one.
+  static constexpr bool kDense = true;
+  static Result<PatchTree> decode(std::span<const std::byte> bytes) {
+    return decode_patch_tree(bytes, Checksums::kTrust);
+  }
+  static std::vector<std::byte> encode(const PatchTree& model) { return encode_patch_tree(model); }
+  /// Full detail on the side of a plane that its normal points to, the base elsewhere.
+  static FrontStatistics adapt_to_plane(Instance& instance, const Vec3& point, const Vec3& normal) {
+    RefineCriteria criteria;
+    criteria.plane = Plane{normal, -glm::dot(normal, point)};
+    return instance.adapt(criteria);
+  }
+};
+
 template <class... Models>
 struct ModelList {
   using Any = std::variant<std::shared_ptr<const Models>...>;
@@ -118,11 +140,11 @@ struct ModelList {
     (visit.template operator()<Models>(), ...);
   }
 };
-using AllModels =
-    ModelList<ProgressiveMesh, StripFramework, LodStrips, MultiresolutionStrips, ViewDependentMesh>;
+using AllModels = ModelList<ProgressiveMesh, StripFramework, LodStrips, MultiresolutionStrips,
+                            ViewDependentMesh, PatchTree>;
 
 /// One immutable model of any kind; std::visit with a generic lambda, whose parameter is a
-/// std::shared_ptr<const Model>. All kinds satisfy UniformModel, their instances UniformInstance.
+/// std::shared_ptr<const Model>. All kinds satisfy LeveledModel, their instances LeveledInstance.
 using AnyModel = AllModels::Any;
 
 template <class Model>

@@ -30,6 +30,8 @@ struct ModelCheck {
   std::uint32_t levels_checked = 0;     ///< each reached upwards, downwards and from a fresh start
   std::uint32_t distances_checked = 0;  ///< levels whose error was compared with distances
   std::uint32_t fronts_checked = 0;     ///< 0 for models without fronts
+  /// Of the fronts of a patch tree together: those that switches of borders collapsed.
+  std::uint64_t collapsed_triangles = 0;
 };
 
 /// The kind of model that an instance is of.

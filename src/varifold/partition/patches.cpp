@@ -1,5 +1,6 @@
 #include <varifold/partition/patches.h>
 
+#include <varifold/partition/border_smoothing.h>
 #include <varifold/partition/cluster_graph.h>
 #include <varifold/partition/edge_links.h>
 #include <varifold/partition/merge_rounds.h>
@@ -78,8 +79,8 @@ void measure(const SurfaceView& surface, const EdgeLinks& links, Partition& part
     if (g == kNone || g > h || partition.patch_of[g / 3] == partition.patch_of[h / 3]) continue;
     ++partition.border_edges;
     partition.border_length +=
-        glm::distance(surface.positions[surface.corners[h]],
-                      surface.positions[surface.corners[next_in_triangle(h)]]);
+        glm::distance(DVec3(surface.positions[surface.corners[h]]),
+                      DVec3(surface.positions[surface.corners[next_in_triangle(h)]]));
   }
 }
 
@@ -107,6 +108,14 @@ Partition make_patches(const SurfaceView& surface, const PartitionOptions& optio
   partition.patch_count += small.count;
 
   measure(surface, links, partition);
+  partition.rough_border_edges = partition.border_edges;
+  partition.rough_border_length = partition.border_length;
+  if (options.smooth) {
+    const SmoothedPatches patches{partition.patch_of, partition.patch_count,
+                                  max_triangles(options.triangles_per_patch)};
+    partition.smoothing_rounds = smooth_borders(surface, links, patches, options.threads);
+    measure(surface, links, partition);
+  }
   for (const std::int32_t euler :
        euler_characteristics(surface, links, {partition.patch_of, partition.patch_count}))
     partition.non_discs += euler != 1;

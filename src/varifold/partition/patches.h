@@ -33,7 +33,7 @@ struct Partition {
   std::uint32_t smoothing_rounds = 0;
 };
 
-/// No patch has more than this many times the wanted number of triangles, unless by smoothing.
+/// No patch has more than this many times the wanted number of triangles.
 inline constexpr float kMaxPatchExcess = 2.5f;
 
 /// Every triangle in one patch; no patch is empty. The patches of a region, that is, of triangles

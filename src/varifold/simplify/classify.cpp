@@ -137,27 +137,19 @@ EdgeUse edge_use(WorkingSurface& surface, std::uint32_t point, std::uint32_t nei
   return use;
 }
 
-namespace {
-
-template <class Which>
-void classify_where(WorkingSurface& surface, int threads, const Which& which) {
+void classify_points(WorkingSurface& surface, int threads) {
   parallel_for(threads, surface.point_count(), 4096, [&](std::size_t begin, std::size_t end) {
-    for (auto p = static_cast<std::uint32_t>(begin); p < end; ++p) {
-      PointState& point = surface.points[p];
-      if (!(point.flags & PointState::kDead) && which(point)) point.kind = kind_of(surface, p);
-    }
+    for (auto p = static_cast<std::uint32_t>(begin); p < end; ++p)
+      surface.points[p].kind = kind_of(surface, p);
   });
 }
 
-}  // namespace
-
-void classify_points(WorkingSurface& surface, int threads) {
-  classify_where(surface, threads, [](const PointState&) { return true; });
-}
-
-void reclassify_points(WorkingSurface& surface, int threads) {
-  classify_where(surface, threads,
-                 [](const PointState& point) { return point.kind != VertexKind::kManifold; });
+void reclassify_points(WorkingSurface& surface, std::span<const std::uint32_t> live, int threads) {
+  parallel_for(threads, live.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    for (const std::uint32_t p : live.subspan(begin, end - begin))
+      if (surface.points[p].kind != VertexKind::kManifold)
+        surface.points[p].kind = kind_of(surface, p);
+  });
 }
 
 }  // namespace varifold

@@ -3,6 +3,7 @@
 
 #include <varifold/simplify/working_surface.h>
 #include <cstdint>
+#include <span>
 
 namespace varifold {
 
@@ -43,8 +44,8 @@ void for_edge_wedges(const WorkingSurface& surface, std::uint32_t point, std::ui
 /// Sets PointState::kind and the flag kIrregular of every point. O(n), O(ring^2) where irregular.
 void classify_points(WorkingSurface& surface, int threads);
 
-/// The same where regions have been merged since: points without features have none now, either.
-/// O(points), O(ring) where there were some.
-void reclassify_points(WorkingSurface& surface, int threads);
+/// The same for some live points where regions have been merged since: points without features have
+/// none now, either. O(points), O(ring) where there were some.
+void reclassify_points(WorkingSurface& surface, std::span<const std::uint32_t> live, int threads);
 
 }  // namespace varifold

@@ -23,14 +23,17 @@ class Rounds {
       cell.end = std::min(count, begin + size);
     }
     if (cells_.empty()) cells_.emplace_back();
-    live_points_ = surface.live_points();
+    live_points_ = options.live.empty() ? surface.live_points()
+                                        : static_cast<std::uint32_t>(options.live.size());
     merge_cells();
   }
 
   CollapseLog run() {
     log_.entries.reserve(surface_.point_count());
     log_.removed_faces.reserve(surface_.face_count);
-    for_each_cell([&](Cell& cell) { collapser_.queue_all(cell); });
+    for_each_cell([&](Cell& cell) {
+      for_each_point(cell, [&](std::uint32_t point) { collapser_.queue_one(cell, point); });
+    });
     const std::uint32_t all_faces = std::max(1u, surface_.face_count);
     while (surface_.face_count > options_.target_faces && (round() || retry_blocked())) {
       log_.queue_bytes = std::max(log_.queue_bytes, queue_bytes());
@@ -49,6 +52,17 @@ class Rounds {
   void for_each_cell(const Body& body) {
     parallel_for(options_.threads, cells_.size(), 1,
                  [&](std::size_t begin, std::size_t) { body(cells_[begin]); });
+  }
+
+  // Those that were live at the beginning.
+  template <class Body>
+  void for_each_point(const Cell& cell, const Body& body) const {
+    if (options_.live.empty()) {
+      for (std::uint32_t p = cell.begin; p < cell.end; ++p) body(p);
+      return;
+    }
+    const auto first = std::lower_bound(options_.live.begin(), options_.live.end(), cell.begin);
+    for (auto p = first; p != options_.live.end() && *p < cell.end; ++p) body(*p);
   }
 
   [[nodiscard]] std::size_t queue_bytes() const {
@@ -113,7 +127,7 @@ class Rounds {
     bool any = false;
     for (Cell& cell : cells_) {
       cell.queue.restart();
-      for (std::uint32_t p = cell.begin; p < cell.end; ++p) any |= collapser_.wake(cell, p);
+      for_each_point(cell, [&](std::uint32_t point) { any |= collapser_.wake(cell, point); });
     }
     return any;
   }

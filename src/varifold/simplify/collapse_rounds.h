@@ -4,6 +4,7 @@
 #include <varifold/base/progress.h>
 #include <varifold/simplify/collapser.h>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace varifold {
@@ -19,7 +20,9 @@ struct CollapseLog {
 struct RoundOptions {
   std::uint32_t target_faces = 0;  ///< stop after the round that reaches it, ...
   bool exact = false;              ///< ... or after the collapse that does
-  int threads = 0;                 ///< 0 = all
+  /// The live points, ascending; empty: they are looked for among all.
+  std::span<const std::uint32_t> live;
+  int threads = 0;  ///< 0 = all
   Progress progress;
 };
 

@@ -88,16 +88,15 @@ Refusal Collapser::refusal_of(Cell& scratch, std::uint32_t point) {
   return test(scratch, point, surface_.points[point].target);
 }
 
-void Collapser::queue_all(Cell& cell) {
-  for (std::uint32_t point = cell.begin; point < cell.end; ++point) {
-    if (surface_.points[point].flags & PointState::kDead) continue;
-    surface_.points[point].flags &= ~PointState::kBlocked;
-    const float cost = find_candidate(cell, point);
-    if (surface_.points[point].target != kNone)
-      cell.queue.push(point, BucketQueue::bucket_of(cost));
-    else
-      surface_.points[point].flags |= PointState::kBlocked;
-  }
+void Collapser::queue_one(Cell& cell, std::uint32_t point) {
+  PointState& state = surface_.points[point];
+  if (state.flags & PointState::kDead) return;
+  state.flags &= ~PointState::kBlocked;
+  const float cost = find_candidate(cell, point);
+  if (state.target != kNone)
+    cell.queue.push(point, BucketQueue::bucket_of(cost));
+  else
+    state.flags |= PointState::kBlocked;
 }
 
 void Collapser::drain(Cell& cell, std::uint32_t limit, bool confined) {

@@ -61,8 +61,8 @@ class Collapser {
         attributes_(attributes && !attributes->empty() ? attributes : nullptr),
         options_(options) {}
 
-  /// Finds the best collapse of every point in the cell and queues it.
-  void queue_all(Cell& cell);
+  /// Finds the best collapse of a point of the cell and queues it. Nothing for a dead one.
+  void queue_one(Cell& cell, std::uint32_t point);
 
   /// Queues a blocked point of the cell again, to be looked at first. False where it is not blocked
   /// or can never go.

@@ -55,6 +55,7 @@ class SectionReader {
   [[nodiscard]] bool good() const { return good_; }
   [[nodiscard]] bool at_end() const { return at_ == bytes_.size(); }
   [[nodiscard]] std::size_t position() const { return offset_ + at_; }
+  [[nodiscard]] std::size_t remaining() const { return bytes_.size() - at_; }
   [[nodiscard]] tl::unexpected<Error> fault(const std::string& what) const {
     return fail(ErrorKind::kInvalidInput, "byte " + std::to_string(position()) + ": " + what);
   }

@@ -27,6 +27,7 @@ class Assembler {
     tree_.vertices.materials = mesh_.materials;
     tree_.vertices.images = mesh_.images;
     number_nodes();
+    make_room();
     tree_.offsets.emplace_back();
     for (std::size_t l = levels_.size(); l-- > 0;) {
       add_blocks(l);
@@ -41,6 +42,7 @@ class Assembler {
     return tree_.topology.first_of_level[levels_.size() - 1 - level];
   }
   void number_nodes();
+  void make_room();
   void link_level(std::size_t level);
   void add_neighbors(std::size_t level);
   void add_blocks(std::size_t level);
@@ -70,6 +72,25 @@ void Assembler::number_nodes() {
   t.first_neighbor.push_back(0);
   for (std::size_t l = levels_.size(); l-- > 0;) link_level(l);
   t.first_child.push_back(t.node_count());
+}
+
+void Assembler::make_room() {
+  PatchOffsets sum;
+  for (const AssembledLevel& level : levels_) {
+    const PatchOffsets& end = level.blocks.offsets.back();
+    sum = {sum.vertex + end.vertex, sum.triangle + end.triangle, sum.controller + end.controller,
+           sum.range + end.range};
+  }
+  tree_.offsets.reserve(tree_.topology.node_count() + 1);
+  tree_.survivors.reserve(sum.vertex);
+  tree_.corners.reserve(3 * std::size_t{sum.triangle});
+  tree_.controllers.reserve(sum.controller);
+  tree_.ranges.reserve(sum.range);
+  TriangleMesh& vertices = tree_.vertices;
+  vertices.positions.reserve(sum.vertex);
+  if (mesh_.has_normals()) vertices.normals.reserve(sum.vertex);
+  if (mesh_.has_texcoords()) vertices.texcoords.reserve(sum.vertex);
+  if (mesh_.has_colors()) vertices.colors.reserve(sum.vertex);
 }
 
 void Assembler::link_level(std::size_t level) {

@@ -48,15 +48,13 @@ void sort_unique(std::vector<T>& values) {
 
 }  // namespace
 
-void BorderGuard::begin_level(const BorderLocks& locks) {
-  border_of_.assign(surface_.point_count(), kNone);
+void BorderGuard::begin_level(const BorderLocks& locks, std::span<const std::uint32_t> live) {
+  for (const BorderPoint& p : points_) border_of_[p.point] = kNone;
   points_.clear();
   star_.clear();
   forbidden_ = locks.edges;
-  for (std::uint32_t p = 0; p < surface_.point_count(); ++p) {
-    const PointState& state = surface_.points[p];
-    if (!(state.flags & PointState::kDead) && state.kind != VertexKind::kManifold) add_point(p);
-  }
+  for (const std::uint32_t p : live)
+    if (surface_.points[p].kind != VertexKind::kManifold) add_point(p);
   limit_controllers();
   for (const std::uint32_t p : locks.points) surface_.points[p].kind = VertexKind::kCorner;
 }

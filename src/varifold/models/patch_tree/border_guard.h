@@ -28,17 +28,18 @@ struct BorderLocks {
 class BorderGuard final : public CollapseGuard {
  public:
   /// `surface` outlives the guard.
-  explicit BorderGuard(WorkingSurface& surface) : surface_(surface) {}
+  explicit BorderGuard(WorkingSurface& surface)
+      : surface_(surface), border_of_(surface.point_count(), kNone) {}
 
   /// The surface stands at the beginning of a level, with its regions and kinds. Points in
-  /// `locks` become corners. O(points).
-  void begin_level(const BorderLocks& locks);
+  /// `locks` become corners. `live` are the points that are left. O(live points).
+  void begin_level(const BorderLocks& locks, std::span<const std::uint32_t> live);
 
   /// After begin_level(): no point of a border moves. O(points on borders).
   void lock_all();
 
   [[nodiscard]] bool watches(std::uint32_t point) const override {
-    return border_of_[point] != kNone;
+    return surface_.points[point].kind != VertexKind::kManifold && border_of_[point] != kNone;
   }
   [[nodiscard]] bool allows(std::uint32_t from, std::uint32_t onto) override;
   void collapsed(std::uint32_t from, std::uint32_t onto) override;

@@ -88,25 +88,28 @@ void Builder::make_surface() {
 
 // The triangles along the numbers of their points, and the leaves and levels made of them.
 bool Builder::cut_into_patches() {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> order;
-  order.reserve(surface_.face_count);
   const auto corner = [&](std::uint32_t face, std::size_t k) {
     return surface_.point_of_vertex[mesh_.indices[3 * std::size_t{face} + k]];
   };
+  const auto first_point = [&](std::uint32_t face) {
+    return std::min({corner(face, 0), corner(face, 1), corner(face, 2)});
+  };
+  std::vector<std::uint32_t> next(surface_.point_count() + 1, 0);
   for (std::uint32_t face = 0; face < mesh_.triangle_count(); ++face)
-    if (surface_.is_face[face])
-      order.emplace_back(std::min({corner(face, 0), corner(face, 1), corner(face, 2)}), face);
-  std::sort(order.begin(), order.end());
+    if (surface_.is_face[face]) ++next[first_point(face) + 1];
+  for (std::size_t p = 1; p < next.size(); ++p) next[p] += next[p - 1];
+  level_mesh_.faces.resize(surface_.face_count);
+  for (std::uint32_t face = 0; face < mesh_.triangle_count(); ++face)
+    if (surface_.is_face[face]) level_mesh_.faces[next[first_point(face)]++] = face;
+  next = {};
 
   std::vector<std::uint32_t> corners, materials;
   std::vector<Vec3> positions(surface_.point_count());
-  corners.reserve(3 * order.size());
-  for (const auto& [first, face] : order) {
-    level_mesh_.faces.push_back(face);
+  corners.reserve(3 * level_mesh_.faces.size());
+  for (const std::uint32_t face : level_mesh_.faces) {
     for (std::size_t k = 0; k < 3; ++k) corners.push_back(corner(face, k));
     if (!material_of_.empty()) materials.push_back(material_of_[face]);
   }
-  order = {};
   for (std::size_t p = 0; p < positions.size(); ++p) positions[p] = surface_.points[p].position;
 
   const SurfaceView view{corners, positions, materials};
@@ -170,18 +173,16 @@ bool Builder::is_worth_it(std::uint32_t before, const HalvingReport& halving) co
 
 void Builder::keep_level(const LevelMesh& mesh, std::uint32_t level, const LevelHalving* halving) {
   AssembledLevel kept;
-  kept.neighbors = patch_neighbors(points_of(mesh), surface_.point_count(), patch_of_,
-                                   levels_.patch_count(level));
+  const bool has_wedges = surface_.wedge.has_seams();
+  kept.neighbors = patch_neighbors(has_wedges ? points_of(mesh) : mesh.corners,
+                                   surface_.point_count(), patch_of_, levels_.patch_count(level));
   if (halving) kept.parent = levels_.parent[level];
   const FinishedLevel finished{mesh, first_face_, kept.parent, material_of_, surface_, halving};
-  BlockLayout layout(surface_.wedge.has_seams()
-                         ? static_cast<std::uint32_t>(surface_.wedge.vertex_of.size())
-                         : surface_.point_count(),
-                     options_.threads);
   AssembledLevel* finer = kept_.empty() ? nullptr : &kept_.back();
-  kept.blocks = layout.lay_out(
-      finished, finer ? &finer->blocks : nullptr,
-      finer ? first_children(*finer, levels_.patch_count(level)) : std::vector<std::uint32_t>{});
+  const std::vector<std::uint32_t> first_child =
+      finer ? first_children(*finer, levels_.patch_count(level)) : std::vector<std::uint32_t>{};
+  kept.blocks =
+      lay_out_blocks(finished, finer ? &finer->blocks : nullptr, first_child, options_.threads);
   result_.report.level_triangles.push_back(mesh.face_count());
   result_.report.level_patches.push_back(levels_.patch_count(level));
   kept_.push_back(std::move(kept));
@@ -209,7 +210,7 @@ bool Builder::make_levels_of_detail() {
       keep_level(before, level, nullptr);
       return true;
     }
-    errors.measure(halving.went());
+    errors.measure(halving.went(), halving.live());
     watch_.add_to(result_.report.error_seconds);
     keep_level(before, level, &halving);
     add_errors(kept_.back(), errors, surface_);
@@ -236,6 +237,13 @@ Result<PatchTreeBuild> Builder::build() {
   if (!cut_into_patches()) return fail(ErrorKind::kCancelled, "cancelled while making patches");
   watch_.add_to(result_.report.partition_seconds);
   if (!make_levels_of_detail()) return fail(ErrorKind::kCancelled, "cancelled while simplifying");
+  // Only where its vertices come from is needed of the surface any more.
+  surface_.points = {};
+  surface_.lines = {};
+  surface_.pools = {};
+  surface_.region_of = {};
+  surface_.reference_normal = {};
+  level_mesh_ = {};
   result_.tree = PatchTree(assemble(mesh_, surface_, std::move(kept_)));
   watch_.add_to(result_.report.layout_seconds);
   return std::move(result_);

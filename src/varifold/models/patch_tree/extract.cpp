@@ -99,7 +99,26 @@ std::uint32_t coarse_neighbors(const PatchTopology& topology, SplitFlags is_spli
   return mask;
 }
 
-TriangleMesh extract_front(const PatchTree& tree, SplitFlags is_split) {
+std::uint32_t collapsed_triangles(const PatchTreeData& tree, std::uint32_t node,
+                                  std::uint32_t mask) {
+  if (mask == 0) return 0;
+  const PatchOffsets& at = tree.offsets[node];
+  std::size_t first = at.triangle;
+  std::uint32_t count = 0;
+  for (std::uint32_t r = at.range; r < tree.offsets[node + 1].range; ++r) {
+    const PatchRange& range = tree.ranges[r];
+    for (std::size_t t = first + range.constant_triangles; t < first + range.triangle_count; ++t) {
+      std::uint32_t drawn[3];
+      for (std::size_t k = 0; k < 3; ++k)
+        drawn[k] = drawn_vertex(tree, node, at.vertex + tree.corners[3 * t + k], mask);
+      count += is_collapsed(tree, drawn) ? 1 : 0;
+    }
+    first += range.triangle_count;
+  }
+  return count;
+}
+
+TriangleMesh extract_front(const PatchTree& tree, SplitFlags is_split, bool switches) {
   const PatchTreeData& data = tree.data();
   TriangleMesh mesh;
   mesh.materials = data.vertices.materials;
@@ -110,7 +129,7 @@ TriangleMesh extract_front(const PatchTree& tree, SplitFlags is_split) {
     if (!is_in_front(data.topology, is_split, node)) continue;
     const std::uint32_t parent = data.topology.parent[node];
     const std::uint32_t mask =
-        parent == kNone ? 0 : coarse_neighbors(data.topology, is_split, parent);
+        parent == kNone || !switches ? 0 : coarse_neighbors(data.topology, is_split, parent);
     const PatchOffsets& at = data.offsets[node];
     for (std::size_t i = 3 * std::size_t{at.triangle};
          i < 3 * std::size_t{data.offsets[node + 1].triangle}; ++i)

@@ -36,8 +36,21 @@ using SplitFlags = std::span<const std::uint8_t>;
   return tree.offsets[tree.topology.parent[node]].vertex + tree.survivors[v];
 }
 
+/// Whether two of the corners that are drawn stand at one point.
+[[nodiscard]] inline bool is_collapsed(const PatchTreeData& tree, const std::uint32_t (&drawn)[3]) {
+  const std::vector<Vec3>& at = tree.vertices.positions;
+  return at[drawn[0]] == at[drawn[1]] || at[drawn[1]] == at[drawn[2]] ||
+         at[drawn[2]] == at[drawn[0]];
+}
+
+/// How many triangles of `node` are collapsed when its parent has that mask. O(border triangles).
+[[nodiscard]] std::uint32_t collapsed_triangles(const PatchTreeData& tree, std::uint32_t node,
+                                                std::uint32_t mask);
+
 /// The triangles of a front with vertices of equal attributes merged, materials in order. Triangles
-/// that the switches collapse are left out. O(size of the front).
-[[nodiscard]] TriangleMesh extract_front(const PatchTree& tree, SplitFlags is_split);
+/// that the switches collapse are left out. With `switches` false no border is switched, which
+/// leaves cracks. O(size of the front).
+[[nodiscard]] TriangleMesh extract_front(const PatchTree& tree, SplitFlags is_split,
+                                         bool switches = true);
 
 }  // namespace varifold

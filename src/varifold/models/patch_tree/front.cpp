@@ -82,6 +82,21 @@ PatchFrontResult PatchFront::adapt_split_only(const RefineCriteria& criteria,
   return end(frame);
 }
 
+void PatchFront::go_to_level(std::uint32_t level) {
+  set_.reset();
+  const PatchTopology& topology = tables_->topology();
+  const std::uint32_t end =
+      topology.level_count() == 0
+          ? 0
+          : topology.first_of_level[std::min(level, topology.level_count() - 1)];
+  for (std::uint32_t node = 0; node < end; ++node) {
+    set_.split(node, priorities_);
+    set_.want(node);
+  }
+  is_settled_ = false;
+  draws_.follow(set_);
+}
+
 // What is no longer wanted is merged, what is wanted is split: above the priority where the last
 // call stopped. From there the budget is met.
 PatchFrontResult PatchFront::adapt(const RefineCriteria& criteria,

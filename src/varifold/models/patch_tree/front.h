@@ -71,6 +71,8 @@ class PatchFront {
   /// From the roots, as in the paper. O(split nodes).
   PatchFrontResult adapt_split_only(const RefineCriteria& criteria,
                                     const PatchFrontOptions& options);
+  /// To all nodes of a level of the tree, the finest where there are not so many. O(inner nodes).
+  void go_to_level(std::uint32_t level);
 
   /// The patches, and which of their borders are switched.
   [[nodiscard]] const FrontDraws& draws() const { return draws_; }

@@ -35,35 +35,11 @@ struct FinishedLevel {
   const LevelHalving* halving;  ///< null where there is no next level
 };
 
-/// Lays out the blocks of levels, from the finest on.
-class BlockLayout {
- public:
-  BlockLayout(std::uint32_t wedge_count, int threads) : threads_(threads), local_(wedge_count, 0) {}
-
-  /// Lays out a level; `finer`, the one before or null, learns where its survivors stand. Vertices
-  /// that only those need are added. O(triangles).
-  [[nodiscard]] LevelBlocks lay_out(const FinishedLevel& level, LevelBlocks* finer,
-                                    std::span<const std::uint32_t> first_child);
-
- private:
-  struct Triangle {
-    std::uint32_t material;
-    bool is_border;
-    std::uint32_t face;  // of the level
-  };
-  void lay_out_patch(const FinishedLevel& level, std::uint32_t patch, LevelBlocks& out);
-  void sort_triangles(const FinishedLevel& level, std::uint32_t patch);
-  void number_vertices(const FinishedLevel& level, std::uint32_t patch, LevelBlocks& out);
-  void place_survivors(const FinishedLevel& level, LevelBlocks& finer, std::uint32_t first,
-                       std::uint32_t last, LevelBlocks& out);
-  std::uint32_t add_vertex(const FinishedLevel& level, std::uint32_t wedge, LevelBlocks& out);
-  [[nodiscard]] bool is_known(std::uint32_t wedge) const { return local_[wedge] >= base_; }
-
-  [[maybe_unused]] int threads_;
-  // Per wedge: base_ and its number in the present patch. base_ grows from patch to patch.
-  std::vector<std::uint64_t> local_;
-  std::uint64_t base_ = 1, count_ = 0;
-  std::vector<Triangle> triangles_;
-};
+/// Lays out the blocks of a level; `finer`, the level before or null, learns where its survivors
+/// stand: `first_child` tells for each patch, and one more, which patches of it are its children.
+/// Vertices that only those need are added. The same result for any number of threads.
+/// O(triangles).
+[[nodiscard]] LevelBlocks lay_out_blocks(const FinishedLevel& level, LevelBlocks* finer,
+                                         std::span<const std::uint32_t> first_child, int threads);
 
 }  // namespace varifold

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace varifold {
 
@@ -47,45 +48,46 @@ LevelErrors::LevelErrors(const WorkingSurface& surface, int threads)
       step_(surface.point_count(), 0.0f),
       greatest_(surface.point_count(), 0.0f),
       sample_(surface.point_count()) {
-  for (std::uint32_t p = 0; p < surface.point_count(); ++p) sample_[p] = surface.points[p].position;
+  std::iota(sample_.begin(), sample_.end(), 0u);
 }
 
-float LevelErrors::squared_distance(const Vec3& sample, std::uint32_t point) const {
-  StarNearest nearest = nearest_in_star(surface_, point, sample);
+float LevelErrors::squared_distance(std::uint32_t sample, std::uint32_t point) const {
+  const Vec3 place = surface_.points[sample].position;
+  StarNearest nearest = nearest_in_star(surface_, point, place);
   for (int i = 1; i < kMaxStars && nearest.next != kNone && nearest.squared > 0; ++i) {
-    const StarNearest other = nearest_in_star(surface_, nearest.next, sample);
+    const StarNearest other = nearest_in_star(surface_, nearest.next, place);
     if (!(other.squared < nearest.squared)) break;
     nearest = other;
   }
   return nearest.squared;
 }
 
-void LevelErrors::carry(std::uint32_t point, const Vec3& sample, float squared) {
+void LevelErrors::carry(std::uint32_t point, std::uint32_t sample, float squared) {
   const float distance = std::sqrt(squared);
   if (distance <= greatest_[point]) return;
   greatest_[point] = distance;
   sample_[point] = sample;
 }
 
-void LevelErrors::measure(std::span<const std::pair<std::uint32_t, std::uint32_t>> went) {
+void LevelErrors::measure(std::span<const std::pair<std::uint32_t, std::uint32_t>> went,
+                          std::span<const std::uint32_t> live) {
   std::vector<float> carried(went.size());
   parallel_for(threads_, went.size(), 1024, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const auto [from, onto] = went[i];
-      step_[from] = squared_distance(surface_.points[from].position, onto);
+      step_[from] = squared_distance(from, onto);
       carried[i] = greatest_[from] > 0 ? squared_distance(sample_[from], onto) : 0.0f;
     }
   });
-  parallel_for(threads_, surface_.point_count(), 4096, [&](std::size_t begin, std::size_t end) {
-    for (auto p = static_cast<std::uint32_t>(begin); p < end; ++p) {
-      if (surface_.points[p].flags & PointState::kDead) continue;
+  parallel_for(threads_, live.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    for (const std::uint32_t p : live.subspan(begin, end - begin)) {
       step_[p] = 0;
       if (greatest_[p] > 0) greatest_[p] = std::sqrt(squared_distance(sample_[p], p));
     }
   });
   for (std::size_t i = 0; i < went.size(); ++i) {
     const auto [from, onto] = went[i];
-    carry(onto, surface_.points[from].position, step_[from]);
+    carry(onto, from, step_[from]);
     carry(onto, sample_[from], carried[i]);
   }
 }

@@ -20,8 +20,9 @@ class LevelErrors {
   explicit LevelErrors(const WorkingSurface& surface, int threads);
 
   /// The surface has been halved: `went` are the points that collapsed, each with the point where
-  /// it ended up. O(points).
-  void measure(std::span<const std::pair<std::uint32_t, std::uint32_t>> went);
+  /// it ended up; `live` are those that are left. O(points).
+  void measure(std::span<const std::pair<std::uint32_t, std::uint32_t>> went,
+               std::span<const std::uint32_t> live);
 
   /// Of a point that went with the last level, or stayed: the squared distance from where it was to
   /// the surface.
@@ -30,14 +31,14 @@ class LevelErrors {
   [[nodiscard]] float greatest(std::uint32_t point) const { return greatest_[point]; }
 
  private:
-  [[nodiscard]] float squared_distance(const Vec3& sample, std::uint32_t point) const;
-  void carry(std::uint32_t point, const Vec3& sample, float squared);
+  [[nodiscard]] float squared_distance(std::uint32_t sample, std::uint32_t point) const;
+  void carry(std::uint32_t point, std::uint32_t sample, float squared);
 
   const WorkingSurface& surface_;
   int threads_;
   std::vector<float> step_;  // squared
   std::vector<float> greatest_;
-  std::vector<Vec3> sample_;
+  std::vector<std::uint32_t> sample_;  // a point of the original
 };
 
 }  // namespace varifold

@@ -25,6 +25,8 @@ LevelHalving::LevelHalving(WorkingSurface& surface, AttributeField& attributes,
       surface.wedge.has_seams() ? surface.wedge.vertex_of.size() : surface.point_count();
   survivor_.resize(wedges);
   std::iota(survivor_.begin(), survivor_.end(), 0u);
+  live_.resize(surface.point_count());
+  std::iota(live_.begin(), live_.end(), 0u);
 }
 
 void LevelHalving::set_references(const LevelMesh& mesh) {
@@ -48,9 +50,9 @@ HalvingReport LevelHalving::halve(LevelMesh& mesh, std::uint32_t target_faces) {
     if (is_first_)
       classify_points(surface_, options_.threads);
     else
-      reclassify_points(surface_, options_.threads);
+      reclassify_points(surface_, live_, options_.threads);
     is_first_ = false;
-    guard_.begin_level(locks);
+    guard_.begin_level(locks, live_);
     if (report.reruns == kMaxReruns) guard_.lock_all();
     std::vector<CollapseLogEntry> log;
     report.cancelled = !collapse(target_faces, log);
@@ -81,10 +83,14 @@ bool LevelHalving::collapse(std::uint32_t target_faces, std::vector<CollapseLogE
     RoundOptions rounds;
     rounds.target_faces = target_faces;
     rounds.exact = true;
+    rounds.live = live_;
     rounds.threads = options_.threads;
     rounds.progress = options_.progress;
-    const CollapseLog done = run_rounds(surface_, collapser, rounds);
-    log.insert(log.end(), done.entries.begin(), done.entries.end());
+    CollapseLog done = run_rounds(surface_, collapser, rounds);
+    if (log.empty())
+      log = std::move(done.entries);
+    else
+      log.insert(log.end(), done.entries.begin(), done.entries.end());
     if (done.cancelled) return false;
   }
   return true;
@@ -117,21 +123,32 @@ void LevelHalving::restore(const LevelMesh& mesh, std::span<const CollapseLogEnt
       wedge.target[w] = kNone;
 }
 
-// From the last collapse back, so that the target's own survivor is known.
+// Each where its point went at first, then on from there, in the order of their numbers.
 void LevelHalving::find_survivors(std::span<const CollapseLogEntry> log) {
+  const WedgeTables& wedge = surface_.wedge;
   std::iota(survivor_.begin(), survivor_.end(), 0u);
-  for (std::size_t i = log.size(); i-- > 0;) {
-    if (!surface_.wedge.has_seams()) {
-      survivor_[log[i].from] = survivor_[log[i].onto];
+  for (const CollapseLogEntry& entry : log) {
+    if (!wedge.has_seams()) {
+      survivor_[entry.from] = entry.onto;
       continue;
     }
-    const WedgeTables& wedge = surface_.wedge;
-    for (std::uint32_t w = wedge.first[log[i].from]; w < wedge.first[log[i].from + 1]; ++w)
-      survivor_[w] = survivor_[wedge.target[w]];
+    for (std::uint32_t w = wedge.first[entry.from]; w < wedge.first[entry.from + 1]; ++w)
+      survivor_[w] = wedge.target[w];
+  }
+  for (std::uint32_t w = 0; w < survivor_.size(); ++w) {
+    std::uint32_t end = survivor_[w];
+    while (survivor_[end] != end) end = survivor_[end];
+    for (std::uint32_t at = w; survivor_[at] != end;) at = std::exchange(survivor_[at], end);
   }
   went_.clear();
-  for (const CollapseLogEntry& entry : log)
-    went_.emplace_back(entry.from, point_of(survivor_[surface_.wedge.first_of(entry.from)]));
+  std::size_t kept = 0;
+  for (const std::uint32_t p : live_) {
+    if (surface_.points[p].flags & PointState::kDead)
+      went_.emplace_back(p, point_of(survivor_[wedge.first_of(p)]));
+    else
+      live_[kept++] = p;
+  }
+  live_.resize(kept);
 }
 
 void LevelHalving::shrink(LevelMesh& mesh) const {

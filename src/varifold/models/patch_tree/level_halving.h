@@ -52,7 +52,9 @@ class LevelHalving {
 
   /// Where a wedge of the level before went; itself if it stayed.
   [[nodiscard]] std::uint32_t survivor(std::uint32_t wedge) const { return survivor_[wedge]; }
-  /// The points that went, each with the point where it ended up.
+  /// The points that are left, ascending.
+  [[nodiscard]] std::span<const std::uint32_t> live() const { return live_; }
+  /// The points that went, ascending, each with the point where it ended up.
   [[nodiscard]] std::span<const std::pair<std::uint32_t, std::uint32_t>> went() const {
     return went_;
   }
@@ -76,6 +78,7 @@ class LevelHalving {
   BorderGuard guard_;
   bool is_first_ = true;  // level
   std::vector<std::uint32_t> survivor_;
+  std::vector<std::uint32_t> live_;  // points, ascending
   std::vector<std::pair<std::uint32_t, std::uint32_t>> went_;
 };
 

@@ -12,7 +12,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace varifold {
@@ -95,12 +94,13 @@ struct PatchTreeData {
   std::vector<PatchRange> ranges;
 };
 
-/// Immutable, shared by any number of instances and threads.
+/// Immutable, shared by any number of instances and threads; satisfies LeveledModel. Level k is the
+/// front of all nodes of level k of the tree.
 class PatchTree {
  public:
   PatchTree() = default;
-  /// Everything must be consistent, as from build_patch_tree().
-  explicit PatchTree(PatchTreeData data) : data_(std::move(data)) {}
+  /// Everything must be consistent, as from build_patch_tree(). O(nodes).
+  explicit PatchTree(PatchTreeData data);
 
   [[nodiscard]] const PatchTreeData& data() const { return data_; }
   [[nodiscard]] const PatchTopology& topology() const { return data_.topology; }
@@ -111,11 +111,39 @@ class PatchTree {
   [[nodiscard]] std::uint32_t vertex_count_of(std::uint32_t node) const {
     return data_.offsets[node + 1].vertex - data_.offsets[node].vertex;
   }
+
+  [[nodiscard]] std::uint32_t finest_level() const {
+    return data_.topology.level_count() == 0 ? 0 : data_.topology.level_count() - 1;
+  }
+  /// The level that a node stands in. O(log levels).
+  [[nodiscard]] std::uint32_t level_of(std::uint32_t node) const;
+  /// Of all patches of the level together: vertices that patches share count for each, and
+  /// vertices that only children need count, too.
+  [[nodiscard]] std::uint32_t vertex_count(std::uint32_t level) const;
+  [[nodiscard]] std::uint32_t triangle_count(std::uint32_t level) const;
+  /// How far samples of the full mesh are off the level at most, model units; not greater than that
+  /// of the coarser level. No bound for all of its vertices: a few may be farther, by a tenth or
+  /// so.
+  [[nodiscard]] float error(std::uint32_t level) const {
+    return level < level_errors_.size() ? level_errors_[level] : 0;
+  }
+  [[nodiscard]] static bool error_is_measured() { return false; }
+  /// The finest level with at most so many triangles or vertices; 0 where even that has more.
+  [[nodiscard]] std::uint32_t level_for_triangles(std::uint32_t count) const;
+  [[nodiscard]] std::uint32_t level_for_vertices(std::uint32_t count) const;
+  /// The coarsest level whose error is at most `bound`.
+  [[nodiscard]] std::uint32_t level_for_error(float bound) const;
+  /// The finest level with at most this part of the vertices that level 0 lacks; 1 is the finest.
+  [[nodiscard]] std::uint32_t level_for_fraction(float fraction) const;
+
+  /// The vertices of all patches, with materials and images; neither indices nor ranges.
+  [[nodiscard]] const TriangleMesh& attributes() const { return data_.vertices; }
   /// Memory of all arrays but images.
   [[nodiscard]] std::size_t bytes() const;
 
  private:
   PatchTreeData data_;
+  std::vector<float> level_errors_;
 };
 
 }  // namespace varifold
