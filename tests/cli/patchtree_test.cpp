@@ -136,6 +136,25 @@ TEST_F(PatchTreeTool, BenchComparesWithFrontsFromTheRoots) {
   }
 }
 
+TEST_F(PatchTreeTool, ThePapersPriority) {
+  (void)make({"--patch-triangles", "64"});
+  const auto bench = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"bench",  path("m.vfm"), "--test",
+                                       "camera", "--path",      "dive"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  };
+  const json pixels = run_json(bench({"--triangles", "5000"}))["results"][0];
+  const json paper = run_json(bench({"--triangles", "5000", "--paper-priority"}))["results"][0];
+  EXPECT_NE(pixels["frames_checksum"], paper["frames_checksum"]);
+  EXPECT_LE(paper["triangles_max"], 5000);
+  EXPECT_EQ(run_tool(bench({"--paper-priority"})).exit_code, 2);
+  // Along the surface counts, too, by mean values.
+  (void)make({"--patch-triangles", "64", "--priority", "mean-value"});
+  const json mean = run_json(bench({"--triangles", "5000", "--paper-priority"}))["results"][0];
+  EXPECT_NE(mean["frames_checksum"], paper["frames_checksum"]);
+}
+
 TEST_F(PatchTreeTool, RenderShowsPatchesAndCracks) {
   (void)make({"--patch-triangles", "64"});
   const auto render = [&](const std::vector<std::string>& more) {
