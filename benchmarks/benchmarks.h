@@ -11,5 +11,6 @@ void register_measure();
 void register_strips();
 void register_lodstrips();
 void register_front_strips();
+void register_patch_draws();
 
 }  // namespace varifold::bench

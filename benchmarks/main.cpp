@@ -11,6 +11,7 @@ int main(int argc, char** argv) {
   varifold::bench::register_lodstrips();
   varifold::bench::register_strip_framework();
   varifold::bench::register_front_strips();
+  varifold::bench::register_patch_draws();
   varifold::bench::register_io();
   varifold::bench::register_measure();
   benchmark::RunSpecifiedBenchmarks();

@@ -27,6 +27,9 @@ class Painter {
   };
   [[nodiscard]] Result<void> paint(std::span<const Item> items, const Camera& camera,
                                    const std::filesystem::path& path);
+  /// A front of patches (view/patch_draws.h).
+  [[nodiscard]] Result<void> paint(const Renderer::PatchItem& item, const Camera& camera,
+                                   const std::filesystem::path& path);
   PictureOptions& options() { return options_; }
 
  private:

@@ -1,10 +1,7 @@
 #include <varifold/render/renderer.h>
 
 #include <varifold/render/colors.h>
-#include <varifold/render/frame_targets.h>
-#include <varifold/render/gl_objects.h>
-#include <varifold/render/mesh_buffers.h>
-#include <varifold/render/picture_passes.h>
+#include <varifold/render/renderer_impl.h>
 #include <varifold/render/shaders.h>
 #include <algorithm>
 #include <cmath>
@@ -18,34 +15,6 @@
 namespace varifold {
 
 using gl::MeshBuffers;
-
-struct Renderer::Impl {
-  gl::Program mesh_program, wire_program;
-  gl::PicturePasses passes;
-  gl::FrameTargets targets;
-  int max_samples = 1;
-
-  std::vector<std::unique_ptr<MeshBuffers>> meshes;  // by GpuMesh; null where free
-
-  Camera camera;
-  PictureOptions options;
-  bool in_frame = false;
-  bool resolved = false;  // the picture shows all that was drawn
-
-  // One multi-draw; kept, so that frames do not allocate.
-  std::vector<GLsizei> batch_counts;
-  std::vector<const void*> batch_offsets;
-
-  [[nodiscard]] MeshBuffers* find(GpuMesh mesh) const {
-    const auto i = static_cast<std::size_t>(mesh);
-    return i < meshes.size() ? meshes[i].get() : nullptr;
-  }
-  void set_camera_uniforms(const gl::Program& program) const;
-  void set_style_uniforms(const gl::Program& program, const DrawStyle& style) const;
-  void draw_ranges(const gl::Program& program, const DrawList& list, const DrawStyle& style);
-  void draw_strips(const gl::Program& program, const DrawList& list, const DrawStyle& style) const;
-  [[nodiscard]] Result<void> resolve();
-};
 
 namespace {
 
@@ -151,6 +120,23 @@ void Renderer::Impl::draw_ranges(const gl::Program& program, const DrawList& lis
   }
 }
 
+void Renderer::Impl::set_raster_state(const DrawStyle& style) const {
+  glBindFramebuffer(GL_FRAMEBUFFER, targets.scene.name());
+  glViewport(0, 0, targets.scene_size.width, targets.scene_size.height);
+  glDisable(GL_BLEND);
+  glDisable(GL_SCISSOR_TEST);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LESS);
+  glEnable(GL_MULTISAMPLE);
+  glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+  glFrontFace(GL_CCW);
+  glCullFace(GL_BACK);
+  if (style.back_faces == BackFaces::kCulled)
+    glEnable(GL_CULL_FACE);
+  else
+    glDisable(GL_CULL_FACE);
+}
+
 Result<void> Renderer::Impl::resolve() {
   if (!in_frame) return no_frame();
   if (resolved) return {};
@@ -240,6 +226,10 @@ Result<void> Renderer::begin(const Camera& camera, const PictureOptions& options
   glClearNamedFramebufferfv(targets.scene.name(), GL_DEPTH, 0, &farthest);
   impl_->set_camera_uniforms(impl_->mesh_program);
   impl_->set_camera_uniforms(impl_->wire_program);
+  if (impl_->patch_program) {
+    impl_->set_camera_uniforms(impl_->patch_program);
+    impl_->set_camera_uniforms(impl_->patch_wire_program);
+  }
   impl_->in_frame = true;
   impl_->resolved = false;
   return gl::check_errors("beginning a picture");
@@ -249,25 +239,9 @@ Result<void> Renderer::draw(GpuMesh mesh, const DrawList& list, const DrawStyle&
   if (!impl_->in_frame) return no_frame();
   const MeshBuffers* buffers = impl_->find(mesh);
   if (!buffers) return no_mesh();
-  const gl::FrameTargets& targets = impl_->targets;
   impl_->resolved = false;
-
-  glBindFramebuffer(GL_FRAMEBUFFER, targets.scene.name());
-  glViewport(0, 0, targets.scene_size.width, targets.scene_size.height);
-  glDisable(GL_BLEND);
-  glDisable(GL_SCISSOR_TEST);
-  glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_LESS);
-  glEnable(GL_MULTISAMPLE);
+  impl_->set_raster_state(style);
   glEnable(GL_PRIMITIVE_RESTART_FIXED_INDEX);
-  glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
-  glFrontFace(GL_CCW);
-  glCullFace(GL_BACK);
-  if (style.back_faces == BackFaces::kCulled)
-    glEnable(GL_CULL_FACE);
-  else
-    glDisable(GL_CULL_FACE);
-
   const gl::Program& program = style.wireframe ? impl_->wire_program : impl_->mesh_program;
   impl_->set_style_uniforms(program, style);
   const bool colored =

@@ -5,9 +5,12 @@
 #include <varifold/render/image.h>
 #include <varifold/view/camera.h>
 #include <varifold/view/draw_list.h>
+#include <varifold/view/patch_draws.h>
+#include <varifold/view/patch_morph.h>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 
 namespace varifold {
@@ -23,6 +26,7 @@ enum class ColorMode {
   kVertexColor,  ///< the vertex colours of the list; plain where it has none
   kLevel,        ///< level_color (colors.h) of the level of each range
   kStrip,        ///< strip_color (colors.h), another for each strip; ranges of triangles have one
+  kPatch,        ///< the same by the number of the patch; plain for what has no patches
 };
 
 enum class BackFaces {
@@ -52,6 +56,14 @@ struct DrawStyle {
   Mat4 placement{1.0f};
 };
 
+/// How a list of patches is drawn, beside its style.
+struct PatchStyle {
+  /// False draws all borders as if there were no coarser patches beside them: with cracks.
+  bool switch_borders = true;
+  /// Blends vertices, where the list says how; its eye is in the model's own coordinates.
+  std::optional<PatchMorphRange> morph;
+};
+
 /// What holds for a whole picture.
 struct PictureOptions {
   int samples = 4;        ///< per pixel, 1 to 32; as many as the device has, at most
@@ -68,6 +80,8 @@ inline constexpr int kMaxFrameSize = 16384;
 
 /// A draw list whose buffers a renderer keeps on the graphics card.
 enum class GpuMesh : std::uint32_t {};
+/// A list of patches, in the same way.
+enum class GpuPatches : std::uint32_t {};
 
 /// Needs a current context with OpenGL 4.5 (a HeadlessContext, or a window's) for as long as it
 /// lives; used by the thread that has the context. Buffers stay on the card between frames, and
@@ -92,12 +106,25 @@ class Renderer {
   /// Frees the buffers. The name may be given out again.
   void remove(GpuMesh mesh);
 
+  /// Uploads vertices, indices and draws of a list of patches. Errors as for other lists, and
+  /// kUnsupported where the device cannot read that much, or nothing, from a vertex shader.
+  [[nodiscard]] Result<GpuPatches> add(const PatchDrawList& list);
+  /// Uploads the draws that changed, and nothing else: 40 bytes each, a few more where they are
+  /// near each other. Returns the bytes uploaded.
+  [[nodiscard]] Result<std::size_t> update(GpuPatches patches, const PatchDrawList& list);
+  void remove(GpuPatches patches);
+
   /// Starts a picture of the camera's size. kInvalidInput for a camera that is not usable or
   /// a size above kMaxFrameSize, kFailed when the graphics memory ends.
   [[nodiscard]] Result<void> begin(const Camera& camera, const PictureOptions& options = {});
   /// Draws the ranges of a list out of the buffers of `mesh`, which must have been brought up to
   /// date with that list. Only between begin and the next begin.
   [[nodiscard]] Result<void> draw(GpuMesh mesh, const DrawList& list, const DrawStyle& style = {});
+
+  /// Draws all patches as they were at the last update, with one call. `call_per_strip` is not for
+  /// them.
+  [[nodiscard]] Result<void> draw(GpuPatches patches, const DrawStyle& style = {},
+                                  const PatchStyle& patch_style = {});
 
   /// Returns when the device has drawn everything.
   void finish();
@@ -112,6 +139,14 @@ class Renderer {
   /// add, begin, draw, read_image and remove in one.
   [[nodiscard]] Result<Image8> render(const DrawList& list, const Camera& camera,
                                       const DrawStyle& style = {},
+                                      const PictureOptions& options = {});
+  /// A list of patches and how it is drawn.
+  struct PatchItem {
+    const PatchDrawList& list;
+    const DrawStyle& style;
+    const PatchStyle& patch_style;
+  };
+  [[nodiscard]] Result<Image8> render(const PatchItem& item, const Camera& camera,
                                       const PictureOptions& options = {});
 
  private:

@@ -9,28 +9,29 @@
 
 #include <varifold/view/camera.h>
 #include <varifold/view/patch_draws.h>
-#include <cmath>
+#include <algorithm>
 
 namespace varifold {
 
 /// When vertices blend: those whose error covers `tolerance` stand at their target, those of
 /// `band` times that at their own place, and between the two in between.
 struct PatchMorphRange {
-  Vec3 eye{0};
+  Vec3 eye{0};              ///< in the model's own coordinates
   float near_distance = 0;  ///< where everything is that is nearer
   /// A length covers this, divided by the distance: PixelScale::focal_pixels(), or 1 where the
   /// errors are roots of mean squares.
   float scale = 1;
   /// The priority, in that unit, at which the front ends: the tolerance in pixels, or that of the
-  /// node where a budget stopped.
+  /// node where a budget stopped. Positive.
   float tolerance = 1;
-  /// Above 1. With 2 no vertex is farther from its own place than the tolerance, as far as its way
-  /// is no longer than its error.
-  float band = 2;
+  /// Above 1. Up to 2, no vertex is farther from its own place than the tolerance, as far as its
+  /// way is no longer than its error. The more levels blend at once, the more triangles are turned
+  /// over on their way: a few in a picture with 1.25 (docs/algorithms/patch_drawing.md).
+  float band = 1.25f;
 };
 
 [[nodiscard]] inline PatchMorphRange pixel_morph_range(const PixelScale& scale, float tolerance) {
-  return {scale.eye(), scale.near_distance(), scale.focal_pixels(), tolerance, 2};
+  return {scale.eye(), scale.near_distance(), scale.focal_pixels(), tolerance};
 }
 
 /// 1: at the target; 0: at its own place. O(1).
@@ -43,20 +44,22 @@ struct PatchMorphRange {
 }
 
 /// Where a vertex is drawn: at its own place, on the way to its target, or, where that is on its
-/// way as well, ... O(levels), mostly one or two steps.
+/// way as well, to where that is. O(levels), mostly one or two steps.
 [[nodiscard]] inline Vec3 morphed_position(const PatchDrawList& list, std::uint32_t vertex,
                                            const PatchMorphRange& range) {
-  Vec3 sum(0);
+  const Vec3 own = list.positions[vertex];
+  Vec3 position = own, way(0);
   float weight = 1;
   while (true) {
-    const Vec3 own = list.positions[vertex];
     const PatchMorph& morph = list.morphs[vertex];
-    const float part = morph.target == vertex ? 0 : morph_part(range, own, morph.error);
-    sum += weight * (1 - part) * own;
-    weight *= part;
-    if (weight <= 0) return sum;
+    if (morph.target == vertex) break;
+    weight *= morph_part(range, position, morph.error);
+    if (weight <= 0) break;
     vertex = morph.target;
+    way += weight * (list.positions[vertex] - position);
+    position = list.positions[vertex];
   }
+  return own + way;
 }
 
 }  // namespace varifold

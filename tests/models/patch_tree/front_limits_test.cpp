@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <varifold/mesh/generators.h>
+#include <varifold/models/patch_tree/build.h>
+#include <varifold/models/patch_tree/patch_draws.h>
 #include <algorithm>
 
 namespace varifold::test {
@@ -217,6 +220,32 @@ TEST(PatchFront, AllocatesNothingOnceItIsWarm) {
         front.adapt_split_only(view, options_of(0.3f, budget));
       }
       front.adapt(view, options_of(0.01f, 100000));
+    }
+    if (round > 0) {
+      EXPECT_EQ(allocations - before, 0u);
+    }
+  }
+}
+
+TEST(PatchDraws, AllocateNothingOnceAFrontWasAsLarge) {
+  PlanetOptions planet_options;
+  planet_options.triangles = 6000;
+  PatchTreeOptions tree_options;
+  tree_options.triangles_per_patch = 40;
+  auto built = build_patch_tree(planet(planet_options), tree_options);
+  ASSERT_TRUE(built);
+  const auto tree = std::make_shared<const PatchTree>(std::move(built->tree));
+  PatchFront front(tree);
+  PatchDraws draws(std::make_shared<const PatchDrawTables>(tree));
+  std::vector<RefineCriteria> views;
+  Random random(37);
+  for (int i = 0; i < 30; ++i) views.push_back(random_view(random));
+  for (int round = 0; round < 2; ++round) {
+    const std::size_t before = allocations;
+    for (const RefineCriteria& view : views) {
+      front.adapt(view, options_of(0.3f));
+      draws.follow(front.draws());
+      ASSERT_EQ(draws.list().draws.size(), front.draws().draws().size());
     }
     if (round > 0) {
       EXPECT_EQ(allocations - before, 0u);
