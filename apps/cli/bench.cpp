@@ -224,6 +224,9 @@ void check_test(const BenchCommand& command, const std::string& input, const Any
         if (command.test.name == "plane" && !FollowsPlane<Model>)
           wrong_usage(input + ": --test plane needs levels per region; a model of kind " +
                       ModelKind<Model>::kName + " has one level for all");
+        if (command.camera.paper_priority && !DrawsPatches<Model>)
+          wrong_usage(input + ": --paper-priority is for patch trees, not for kind " +
+                      ModelKind<Model>::kName);
         if (command.camera.strips && !MakesStrips<Model>)
           wrong_usage(input + ": --strips makes strips of view-dependent meshes, not of kind " +
                       ModelKind<Model>::kName);
@@ -320,11 +323,14 @@ CommandResult run_bench(BenchCommand command) {
 void check_camera_test(const CLI::App& command, const BenchCommand& options) {
   if (options.is_camera_test()) {
     if (options.camera.path.empty()) wrong_usage("--test camera needs a --path");
+    if (options.camera.paper_priority && (!options.camera.triangles || options.camera.pixels))
+      wrong_usage("--paper-priority has no unit: it needs --triangles, without --pixels");
     if (command.count("--steps") > 0) wrong_usage("--steps: a camera has the frames of its path");
     return;
   }
-  for (const char* const option : {"--path", "--pixels", "--triangles", "--size", "--per-frame",
-                                   "--no-frustum", "--no-orientation", "--strips"})
+  for (const char* const option :
+       {"--path", "--pixels", "--triangles", "--size", "--per-frame", "--no-frustum",
+        "--no-orientation", "--strips", "--paper-priority"})
     if (command.count(option) > 0)
       wrong_usage(std::string(option) + " means nothing to --test " + options.test.name);
 }

@@ -207,6 +207,11 @@ void add_camera_test_options(CLI::App& command, CameraTest& test) {
                   [&](PictureSize size) { test.size = size; })
       ->group(group);
   command.add_flag("--per-frame", test.per_frame, "List all frames in the JSON")->group(group);
+  command
+      .add_flag("--paper-priority", test.paper_priority,
+                "Patch trees: by the mean squared distance over the squared distance to the eye, "
+                "with --triangles")
+      ->group(group);
   command.add_flag("--no-frustum", test.no_frustum, "Full detail outside of the picture too")
       ->group(group);
   command.add_flag("--no-orientation", test.no_orientation, "Full detail on back faces too")

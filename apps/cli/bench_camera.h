@@ -29,6 +29,7 @@ struct CameraTest {
   bool per_frame = false;
   bool strips = false;  ///< made anew for each frame
   bool no_frustum = false, no_orientation = false;
+  bool paper_priority = false;  ///< of patch trees
 
   /// 1 where nothing is asked for; 0, as fine as the triangles allow, with --triangles alone.
   [[nodiscard]] float tolerance() const {
@@ -158,8 +159,7 @@ class CameraWalk {
   // The paper's way, after one frame for the memory.
   void time_from_roots(std::span<const Camera> cameras, std::vector<CameraFrame>& frames) {
     InstanceOf<Model> instance(model_);
-    PatchFrontOptions options;
-    options.limits = {test_.tolerance(), test_.triangles.value_or(kNone)};
+    const PatchFrontOptions options = patch_options();
     (void)instance.adapt(criteria_of(cameras[0]), options, true);
     for (std::size_t i = 0; i < cameras.size(); ++i) {
       const RefineCriteria criteria = criteria_of(cameras[i]);
@@ -168,6 +168,13 @@ class CameraWalk {
       frames[i].from_roots_seconds = adapting.seconds();
       frames[i].patches = static_cast<std::uint32_t>(instance.front().draws().draws().size());
     }
+  }
+
+  [[nodiscard]] PatchFrontOptions patch_options() const {
+    PatchFrontOptions options;
+    options.limits = {test_.tolerance(), test_.triangles.value_or(kNone)};
+    if (test_.paper_priority) options.measure = PatchMeasure::kMeanSquared;
+    return options;
   }
 
   [[nodiscard]] RefineCriteria criteria_of(const Camera& camera) const {
@@ -207,6 +214,8 @@ class CameraWalk {
       limits.unused_budget = kUnusedBudget;
       limits.morph_frames = test_.morph_frames;
       return instance.adapt(criteria, options, limits);
+    } else if constexpr (DrawsPatches<Model>) {
+      return instance.adapt(criteria, patch_options(), false).statistics;
     } else {
       return instance.adapt(criteria, options);
     }

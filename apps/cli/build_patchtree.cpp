@@ -17,6 +17,7 @@ struct BuildCommand {
   std::string input, output;
   std::uint32_t patch_triangles = PatchTreeOptions{}.triangles_per_patch;
   bool no_smoothing = false;
+  std::string priority = "closest";
 };
 
 struct Times {
@@ -37,6 +38,7 @@ void report_tree(const PatchTree& tree, const PatchTreeReport& built, Report& re
   report.set("non_disc_leaves", built.non_disc_leaves);
   report.set("reruns", built.reruns);
   report.set("locked_points", built.locked_points);
+  report.set("vanished_points", built.vanished_points);
 }
 
 void report_times(const PatchTree& tree, const PatchTreeReport& built, const Times& times,
@@ -85,6 +87,8 @@ CommandResult run_build(const BuildCommand& command) {
   PatchTreeOptions options;
   options.triangles_per_patch = command.patch_triangles;
   options.smooth_borders = !command.no_smoothing;
+  options.priority =
+      command.priority == "mean-value" ? PatchPriority::kMeanValue : PatchPriority::kClosestPoint;
   options.attributes = command.weights;
   options.threads = command.common.threads;
   options.progress = show_progress(input.filename().string());
@@ -133,6 +137,13 @@ void add_build_patchtree(CLI::App& build, CommandRunner& runner) {
       ->type_name("N");
   command->add_flag("--no-smoothing", options->no_smoothing,
                     "Leave the borders of patches as merging made them");
+  command
+      ->add_option("--priority", options->priority,
+                   "How far vertices move, for the paper's priority: closest, to the nearest place "
+                   "of the coarse surface; mean-value, by mean value coordinates as in the paper")
+      ->check(CLI::IsMember({"closest", "mean-value"}))
+      ->capture_default_str()
+      ->type_name("KIND");
   add_weight_options(*command, options->weights);
   add_prepare_options(*command, options->prepare);
   runner.add_common(*command, options->common, true);

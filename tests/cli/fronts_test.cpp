@@ -68,7 +68,7 @@ TEST_P(Fronts, DeviationsAreLengthsWhereThatIsAskedFor) {
             2);
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, Fronts, ::testing::Values("strips", "vdpm"),
+INSTANTIATE_TEST_SUITE_P(Kinds, Fronts, ::testing::Values("strips", "vdpm", "patchtree"),
                          [](const auto& kind) { return std::string(kind.param); });
 
 }  // namespace

@@ -26,7 +26,10 @@ class ModelsOfAKind : public ::testing::TestWithParam<const char*> {
                                           const char* triangles = "3000") const {
     EXPECT_EQ(
         run_tool({"generate", shape, "--triangles", triangles, "-o", path("m.glb")}).exit_code, 0);
-    return run_json({"build", kind(), path("m.glb"), "-o", path("m.vfm")});
+    std::vector<std::string> build{"build", kind(), path("m.glb"), "-o", path("m.vfm")};
+    // Small meshes need small patches to have levels and fronts.
+    if (kind() == "patchtree") build.insert(build.end(), {"--patch-triangles", "32"});
+    return run_json(build);
   }
   TemporaryFolder folder_;
 };

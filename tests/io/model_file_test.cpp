@@ -11,6 +11,7 @@
 #include <varifold/io/output_file.h>
 #include <varifold/models/lodstrips/build.h>
 #include <varifold/models/mts/build.h>
+#include <varifold/models/patch_tree/build.h>
 #include <varifold/models/pm/build.h>
 #include <varifold/models/pm/instance.h>
 #include <varifold/models/pm/stream_reader.h>
@@ -177,6 +178,15 @@ LodStrips built(const DetailedMesh& detailed) {
 template <>
 ViewDependentMesh built(const DetailedMesh& detailed) {
   return build_view_dependent_mesh(detailed);
+}
+
+template <>
+PatchTree built(const DetailedMesh& detailed) {
+  PatchTreeOptions options;
+  options.triangles_per_patch = 12;
+  auto tree = build_patch_tree(detailed.mesh, options);
+  EXPECT_TRUE(tree);
+  return tree ? std::move(tree->tree) : PatchTree();
 }
 
 TEST(AnyModelFile, EveryKindComesBackAsItself) {

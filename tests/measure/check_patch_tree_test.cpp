@@ -124,8 +124,11 @@ TEST_F(BrokenPatchTree, AVertexElsewhere) {
 }
 
 TEST_F(BrokenPatchTree, ATriangleTheOtherWayRound) {
-  // Of an inner node, so that the finest level does not have it.
-  const std::size_t t = data_.offsets[1].triangle;
+  // Of an inner node, so that the finest level does not have it, that does not look everywhere.
+  std::size_t node = 1;
+  while (data_.bounds[node].cone.is_wide()) ++node;
+  ASSERT_FALSE(data_.topology.is_leaf(static_cast<std::uint32_t>(node)));
+  const std::size_t t = data_.offsets[node].triangle;
   std::swap(data_.corners[3 * t], data_.corners[3 * t + 1]);
   const auto kinds = faults_of(data_, 40);
   EXPECT_EQ(kinds.count("new_misoriented_edge"), 1u);

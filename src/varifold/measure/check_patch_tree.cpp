@@ -223,17 +223,17 @@ bool PatchTreeChecker::check_fronts() {
 
 void PatchTreeChecker::add_notes() {
   const auto add = [&](const char* kind, const std::vector<std::uint32_t>& levels,
-                       const std::string& detail) {
+                       const std::string& detail, Severity severity) {
     if (levels.empty()) return;
     std::string where = "level";
     for (std::size_t i = 0; i < std::min<std::size_t>(levels.size(), 4); ++i)
       where += (i == 0 ? " " : ", ") + std::to_string(levels[i]);
-    check_.faults.push_back({kind, levels.size(),
-                             where + (levels.size() > 4 ? ", ..." : "") + detail, Severity::kNote});
+    check_.faults.push_back(
+        {kind, levels.size(), where + (levels.size() > 4 ? ", ..." : "") + detail, severity});
   };
   add("error_exceeded", exceeded_,
-      " (at most " + std::to_string(worst_excess_) + " times the error)");
-  add("lost_component", lost_component_, "");
+      " (at most " + std::to_string(worst_excess_) + " times the error)", Severity::kFault);
+  add("lost_component", lost_component_, "", Severity::kNote);
 }
 
 }  // namespace

@@ -26,9 +26,8 @@ namespace varifold {
 /// - not_identical: a list that draws other triangles than the mesh of the front has
 /// - front_over_budget: more triangles than asked for, and than level 0 has
 /// - front_illegal: patches that share a vertex and differ by more than one level
-/// - error_not_monotone: as of other models
-/// Notes: error_exceeded, a vertex of the finest level is farther from a level than its error,
-/// which is a bound for samples alone; lost_component, levels with fewer components.
+/// - error_not_monotone, error_exceeded: as of other models
+/// Note: lost_component, levels with fewer components.
 ///
 /// The tree must be consistent, as from a build or a decoder. O(n log n) a front. Error:
 /// kCancelled.

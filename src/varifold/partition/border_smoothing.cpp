@@ -2,298 +2,160 @@
 
 #include <varifold/base/parallel.h>
 #include <varifold/partition/border_stretches.h>
-#include <varifold/partition/corridor.h>
-#include <varifold/partition/vertex_fans.h>
+#include <varifold/partition/path_mover.h>
 #include <algorithm>
+#include <atomic>
 #include <bit>
-#include <utility>
+#include <vector>
 
 namespace varifold {
 
 namespace {
 
 constexpr std::size_t kGrain = 64;
-constexpr std::uint32_t kMaxRounds = 1000;  // never met: every step shortens
+constexpr std::uint64_t kBlockTriangles = 1u << 14;  // what is known of them stays in a cache
+// Never met: every step shortens.
+constexpr std::uint32_t kMaxRounds = 1000;
+constexpr std::uint32_t kMaxSteps = 1u << 20;
 
-// Moves a stretch onto a shorter path.
-class Mover {
+// The order of work: stretches inside a block of patches, all blocks at once, then those between
+// blocks in sets that have no patch in common.
+struct WorkPlan {
+  std::vector<std::vector<std::uint32_t>> blocks;
+  std::vector<std::vector<std::uint32_t>> sets;
+};
+
+WorkPlan plan_work(const std::vector<Stretch>& stretches, std::uint32_t patch_count,
+                   std::uint32_t patches_per_block) {
+  WorkPlan plan;
+  plan.blocks.resize(patch_count / patches_per_block + 1);
+  constexpr int kSets = 64;
+  plan.sets.resize(kSets);
+  std::vector<std::uint64_t> taken(patch_count, 0);
+  for (std::uint32_t s = 0; s < stretches.size(); ++s) {
+    const Stretch& stretch = stretches[s];
+    if (stretch.a / patches_per_block == stretch.b / patches_per_block) {
+      plan.blocks[stretch.a / patches_per_block].push_back(s);
+      continue;
+    }
+    const int set = std::countr_one(taken[stretch.a] | taken[stretch.b]);
+    if (set == kSets) {
+      plan.sets.push_back({s});  // by itself
+      continue;
+    }
+    taken[stretch.a] |= std::uint64_t{1} << set;
+    taken[stretch.b] |= std::uint64_t{1} << set;
+    plan.sets[set].push_back(s);
+  }
+  std::erase_if(plan.sets, [](const auto& set) { return set.empty(); });
+  return plan;
+}
+
+class Smoother {
  public:
-  Mover(PatchedSurface& patched, std::span<std::uint32_t> sizes, std::uint32_t max_triangles)
-      : patched_(patched), sizes_(sizes), max_triangles_(max_triangles) {}
-
-  // Shortens the stretch until nothing gets shorter; whether anything did.
-  bool shorten(std::uint32_t stretch) {
-    bool is_shorter = false;
-    for (bool again = true; again;) {
-      again = corridor_.find_shorter(patched_, stretch);
-      // Where the path is not sound, its points are fixed now, and there may be another.
-      if (again && is_sound_path()) is_shorter |= again = move(stretch);
-      corridor_.clear(patched_);
-    }
-    return is_shorter;
+  Smoother(PatchedSurface& patched, const SmoothedPatches& patches)
+      : patched_(patched),
+        max_triangles_(patches.max_triangles),
+        sizes_(patches.count, 0),
+        checked_at_(patched.borders.stretches.size(), 0),
+        is_blocked_(patched.borders.stretches.size(), 1),
+        changed_at_(patches.count, 1) {
+    for (const std::uint32_t patch : patches.patch_of) ++sizes_[patch];
   }
 
- private:
-  using Places = Corridor::Places;
-
-  [[nodiscard]] Places places(std::uint32_t point) const {
-    return corridor_.places(patched_, point);
-  }
-
-  bool move(std::uint32_t number) {
-    Stretch& stretch = patched_.borders.stretches[number];
-    const std::vector<std::uint32_t>& path = corridor_.path();
-    changed_.clear();
-    if (!flip_between(stretch) || !is_border(stretch) || !count_sizes(stretch)) {
-      for (const std::uint32_t t : changed_) flip(stretch, t);
-      return false;
-    }
-    for (std::size_t i = 1; i + 1 < stretch.path.size(); ++i)
-      patched_.borders.use_of[stretch.path[i]] = PointUse::kInside;
-    for (std::size_t i = 1; i + 1 < path.size(); ++i) patched_.borders.use_of[path[i]] = number;
-    stretch.path = path;
-    return true;
-  }
-
-  // Points where fans touch cannot be in a path.
-  [[nodiscard]] bool is_sound(std::uint32_t point) {
-    std::uint32_t& use = patched_.borders.use_of[point];
-    if (use != PointUse::kInside) return true;
-    if (is_closed_fan(patched_.surface, patched_.links, patched_.borders.spokes[point],
-                      patched_.borders.triangles_at[point]))
-      return true;
-    use = PointUse::kFixed;
-    return false;
-  }
-
-  [[nodiscard]] bool is_sound_path() {
-    bool all = true;
-    for (std::size_t i = 1; i + 1 < corridor_.path().size(); ++i)
-      all &= is_sound(corridor_.path()[i]);
-    return all;
-  }
-
-  void flip(const Stretch& stretch, std::uint32_t triangle) {
-    patched_.set_patch(triangle, patched_.patch(triangle) == stretch.a ? stretch.b : stretch.a);
-  }
-
-  // Counts the triangles of both patches anew. False where one would grow beyond the limit.
-  bool count_sizes(const Stretch& stretch) {
-    std::uint32_t to_a = 0;
-    for (const std::uint32_t t : changed_) to_a += patched_.patch(t) == stretch.a;
-    const auto to_b = static_cast<std::uint32_t>(changed_.size()) - to_a;
-    std::uint32_t& a = sizes_[stretch.a];
-    std::uint32_t& b = sizes_[stretch.b];
-    if ((to_a > to_b && a + to_a - to_b > max_triangles_) ||
-        (to_b > to_a && b + to_b - to_a > max_triangles_))
-      return false;
-    a += to_a - to_b;
-    b += to_b - to_a;
-    return true;
-  }
-
-  // Hands over the triangles between the old and the new path, piece by piece.
-  bool flip_between(const Stretch& stretch) {
-    const std::vector<std::uint32_t>& path = corridor_.path();
-    for (std::uint32_t begin = 0; begin + 1 < path.size();) {
-      std::uint32_t end = begin + 1;
-      while (places(path[end]).in_old == kNone) ++end;
-      const std::uint32_t from = places(path[begin]).in_old, to = places(path[end]).in_old;
-      if (to <= from) return false;
-      const bool is_same_edge = end == begin + 1 && to == from + 1;
-      if (!is_same_edge && !flip_piece(stretch, begin, from, to)) return false;
-      begin = end;
-    }
-    return true;
-  }
-
-  // The piece is bounded by the old path from `from` to `to` and the new one from `begin` on.
-  bool flip_piece(const Stretch& stretch, std::uint32_t begin, std::uint32_t from,
-                  std::uint32_t to) {
-    const std::uint32_t side = side_of(begin);
-    if (side != stretch.a && side != stretch.b) return false;
-    const std::size_t first = changed_.size();
-    for (std::uint32_t i = from; i < to; ++i) {
-      const std::uint32_t t = triangle_at(stretch.path[i], stretch.path[i + 1], side);
-      if (t != kNone) take(stretch, t, side);
-    }
-    for (std::size_t i = first; i < changed_.size(); ++i) {
-      const std::uint32_t t = changed_[i];
-      for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
-        if (is_step_of(h, &Places::in_old) || is_step_of(h, &Places::in_new)) continue;
-        if (!is_between(stretch, h)) return false;
-        take(stretch, patched_.links.across_in_material(h) / 3, side);
-      }
-    }
-    return true;
-  }
-
-  // Whether an edge of neither path can be between the two: it leads to one of the patches, and its
-  // ends are not on another border. Else the paths run around a handle or a hole.
-  [[nodiscard]] bool is_between(const Stretch& stretch, std::uint32_t h) const {
-    const std::uint32_t g = patched_.links.across_in_material(h);
-    if (g == kNone) return false;
-    const std::uint32_t patch = patched_.patch(g / 3);
-    if (patch != stretch.a && patch != stretch.b) return false;
-    std::uint32_t corners = 0;
-    for (const std::uint32_t end : {h, next_in_triangle(h)}) {
-      const std::uint32_t point = patched_.surface.corners[end];
-      if (point == stretch.path.front() || point == stretch.path.back())
-        ++corners;
-      else if (patched_.borders.use_of[point] != PointUse::kInside && places(point).in_old == kNone)
-        return false;
-    }
-    return corners < 2;
-  }
-
-  void take(const Stretch& stretch, std::uint32_t triangle, std::uint32_t side) {
-    if (patched_.patch(triangle) != side) return;
-    changed_.push_back(triangle);
-    patched_.set_patch(triangle, side == stretch.a ? stretch.b : stretch.a);
-  }
-
-  // The patch that the edge of the new path after `begin` runs through.
-  [[nodiscard]] std::uint32_t side_of(std::uint32_t begin) const {
-    const std::vector<std::uint32_t>& path = corridor_.path();
-    std::uint32_t side = kNone;
-    for_each_side(path[begin], path[begin + 1], [&](std::uint32_t t) {
-      const std::uint32_t patch = patched_.patch(t);
-      side = side == kNone || side == patch ? patch : kNone - 1;
+  // Returns whether there was anything to look at.
+  bool run(const WorkPlan& plan, int threads) {
+    std::atomic<bool> found{false};
+    std::vector<std::uint32_t> steps(plan.blocks.size(), 0);
+    parallel_for(threads, plan.blocks.size(), 1, [&](std::size_t begin, std::size_t) {
+      steps[begin] = smooth(plan.blocks[begin], step_);
+      if (steps[begin] > 0) found = true;
     });
-    return side;
-  }
-
-  [[nodiscard]] std::uint32_t triangle_at(std::uint32_t p, std::uint32_t q,
-                                          std::uint32_t patch) const {
-    std::uint32_t found = kNone;
-    for_each_side(p, q, [&](std::uint32_t t) {
-      if (patched_.patch(t) == patch) found = t;
-    });
+    if (!steps.empty()) step_ += *std::max_element(steps.begin(), steps.end());
+    for (const std::vector<std::uint32_t>& set : plan.sets) {
+      // No two have a patch in common, so one step will do for all.
+      parallel_for(threads, set.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+        PathMover mover(patched_, sizes_, max_triangles_);
+        bool is_due = false;
+        for (std::size_t i = begin; i < end; ++i) is_due |= look_at(mover, set[i], step_ + 1);
+        if (is_due) found = true;
+      });
+      ++step_;
+    }
     return found;
   }
 
-  // Visits the two triangles of an edge between points of the corridor.
-  template <class Visit>
-  void for_each_side(std::uint32_t p, std::uint32_t q, const Visit& visit) const {
-    const std::uint32_t h = find_edge(p, q);
-    if (h == kNone) return;
-    visit(h / 3);
-    if (const std::uint32_t g = patched_.links.across_in_material(h); g != kNone) visit(g / 3);
-  }
-  [[nodiscard]] std::uint32_t find_edge(std::uint32_t p, std::uint32_t q) const {
-    const std::uint32_t spoke = corridor_.spoke(patched_, p);
-    for (const std::uint32_t first : {spoke, other_spoke(patched_.surface, spoke, p)})
-      for (std::uint32_t h = first;;) {
-        if (other_end(patched_.surface, h, p) == q) return h;
-        const std::uint32_t g = patched_.links.across_in_material(h);
-        if (g == kNone || g / 3 == spoke / 3) break;
-        h = other_spoke(patched_.surface, g, p);
-      }
-    return kNone;
-  }
-
-  // Whether a half-edge joins two points that follow each other in a path.
-  [[nodiscard]] bool is_step_of(std::uint32_t h, std::uint32_t Places::*path) const {
-    const std::uint32_t p = places(patched_.surface.corners[h]).*path;
-    const std::uint32_t q = places(patched_.surface.corners[next_in_triangle(h)]).*path;
-    return p != kNone && q != kNone && (p + 1 == q || q + 1 == p);
-  }
-
-  // Whether the border runs along the new path now, and nowhere else at the points of both paths.
-  [[nodiscard]] bool is_border(const Stretch& stretch) const {
-    const std::vector<std::uint32_t>& path = corridor_.path();
-    for (std::size_t i = 1; i < path.size(); ++i) {
-      std::uint32_t patches[2] = {kNone, kNone}, count = 0;
-      for_each_side(path[i - 1], path[i], [&](std::uint32_t t) {
-        if (count < 2) patches[count++] = patched_.patch(t);
-      });
-      if (std::minmax(patches[0], patches[1]) != std::minmax(stretch.a, stretch.b)) return false;
+ private:
+  // Goes round until nothing is due; returns the number of steps, one for each that was.
+  std::uint32_t smooth(const std::vector<std::uint32_t>& stretches, std::uint32_t step) {
+    PathMover mover(patched_, sizes_, max_triangles_);
+    std::uint32_t steps = 0;
+    for (bool again = true; again && steps < kMaxSteps;) {
+      again = false;
+      for (const std::uint32_t s : stretches)
+        if (look_at(mover, s, step + steps + 1)) {
+          ++steps;
+          again = true;
+        }
     }
-    for (std::size_t i = 1; i + 1 < path.size(); ++i)
-      if (changes_around(path[i]) != 2) return false;
-    for (std::size_t i = 1; i + 1 < stretch.path.size(); ++i)
-      if (places(stretch.path[i]).in_new == kNone && changes_around(stretch.path[i]) != 0)
-        return false;
+    return steps;
+  }
+
+  // Shortens a stretch if it may be, because one of its patches has changed since the last time.
+  bool look_at(PathMover& mover, std::uint32_t s, std::uint32_t step) {
+    const Stretch& stretch = patched_.borders.stretches[s];
+    if (!is_blocked_[s] ||
+        std::max(changed_at_[stretch.a], changed_at_[stretch.b]) <= checked_at_[s])
+      return false;
+    checked_at_[s] = step;
+    if (mover.shorten(s)) changed_at_[stretch.a] = changed_at_[stretch.b] = step;
+    is_blocked_[s] = mover.is_blocked();
     return true;
   }
 
-  [[nodiscard]] std::uint32_t changes_around(std::uint32_t point) const {
-    const std::uint32_t first = patched_.borders.spokes[point];
-    std::uint32_t changes = 0;
-    for (std::uint32_t h = first;;) {
-      const std::uint32_t g = patched_.links.across_in_material(h);
-      changes += patched_.patch(g / 3) != patched_.patch(h / 3);
-      if (g / 3 == first / 3) return changes;
-      h = other_spoke(patched_.surface, g, point);
-    }
-  }
-
   PatchedSurface& patched_;
-  std::span<std::uint32_t> sizes_;
   std::uint32_t max_triangles_;
-  Corridor corridor_;
-  std::vector<std::uint32_t> changed_;
+  std::uint32_t step_ = 1;
+  std::vector<std::uint32_t> sizes_;       // triangles per patch
+  std::vector<std::uint32_t> checked_at_;  // the step that a stretch was looked at last
+  std::vector<std::uint8_t> is_blocked_;   // whether a stretch waits for a change of its patches
+  std::vector<std::uint32_t> changed_at_;  // the step that a patch changed last
 };
 
-// Sets of stretches without a common patch; what finds no place stands alone.
-std::vector<std::vector<std::uint32_t>> independent_sets(const std::vector<Stretch>& stretches,
-                                                         std::uint32_t patch_count) {
-  constexpr int kSets = 64;
-  std::vector<std::vector<std::uint32_t>> sets(kSets);
-  std::vector<std::uint64_t> taken(patch_count, 0);
-  for (std::uint32_t s = 0; s < stretches.size(); ++s) {
-    const int set = std::countr_one(taken[stretches[s].a] | taken[stretches[s].b]);
-    if (set == kSets) {
-      sets.push_back({s});
-      continue;
-    }
-    taken[stretches[s].a] |= std::uint64_t{1} << set;
-    taken[stretches[s].b] |= std::uint64_t{1} << set;
-    sets[set].push_back(s);
+double path_length(const SurfaceView& surface, const std::vector<std::uint32_t>& path) {
+  double sum = 0;
+  for (std::size_t i = 1; i < path.size(); ++i)
+    sum += glm::distance(DVec3(surface.positions[path[i - 1]]), DVec3(surface.positions[path[i]]));
+  return sum;
+}
+
+// Adds the edges and the length of all stretches, times `sign`.
+void add_stretches(const SurfaceView& surface, const std::vector<Stretch>& stretches, int sign,
+                   SmoothingReport& report) {
+  for (const Stretch& stretch : stretches) {
+    report.edges += sign * static_cast<std::int64_t>(stretch.path.size() - 1);
+    report.length += sign * path_length(surface, stretch.path);
   }
-  std::erase_if(sets, [](const auto& set) { return set.empty(); });
-  return sets;
 }
 
 }  // namespace
 
-std::uint32_t smooth_borders(const SurfaceView& surface, const EdgeLinks& links,
-                             const SmoothedPatches& patches, int threads) {
-  const std::span<std::uint32_t> patch_of = patches.patch_of;
-  std::vector<std::uint32_t> sizes(patches.count, 0);
-  for (const std::uint32_t patch : patch_of) ++sizes[patch];
-  BorderStretches borders = find_stretches(surface, links, patch_of);
-  const auto sets = independent_sets(borders.stretches, patches.count);
-  PatchedSurface patched{surface, links, patch_of, borders,
+SmoothingReport smooth_borders(const SurfaceView& surface, const EdgeLinks& links,
+                               const SmoothedPatches& patches, int threads) {
+  BorderStretches borders = find_stretches(surface, links, patches.patch_of);
+  PatchedSurface patched{surface, links, patches.patch_of, borders,
                          LargeVector<std::uint32_t>(surface.positions.size(), kNone)};
+  const std::uint64_t n = std::max(surface.triangle_count(), 1u);
+  const auto patches_per_block =
+      static_cast<std::uint32_t>(std::max<std::uint64_t>(kBlockTriangles * patches.count / n, 1));
+  const WorkPlan plan = plan_work(borders.stretches, patches.count, patches_per_block);
 
-  // A stretch is looked at again when one of its patches has changed since.
-  std::vector<std::uint32_t> checked_at(borders.stretches.size(), 0);
-  std::vector<std::uint32_t> changed_at(patches.count, 1);
-  std::uint32_t step = 1, rounds = 0;
-  std::vector<std::uint32_t> due;
-  for (bool again = true; again && rounds < kMaxRounds; ++rounds) {
-    again = false;
-    for (const std::vector<std::uint32_t>& set : sets) {
-      ++step;
-      due.clear();
-      for (const std::uint32_t s : set) {
-        const Stretch& stretch = borders.stretches[s];
-        if (std::max(changed_at[stretch.a], changed_at[stretch.b]) > checked_at[s])
-          due.push_back(s);
-      }
-      again |= !due.empty();
-      parallel_for(threads, due.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-        Mover mover(patched, sizes, patches.max_triangles);
-        for (std::size_t i = begin; i < end; ++i) {
-          const Stretch& stretch = borders.stretches[due[i]];
-          checked_at[due[i]] = step;
-          if (mover.shorten(due[i])) changed_at[stretch.a] = changed_at[stretch.b] = step;
-        }
-      });
-    }
-  }
-  return rounds;
+  SmoothingReport report;
+  add_stretches(surface, borders.stretches, 1, report);
+  Smoother smoother(patched, patches);
+  while (report.rounds < kMaxRounds && smoother.run(plan, threads)) ++report.rounds;
+  add_stretches(surface, borders.stretches, -1, report);
+  return report;
 }
 
 }  // namespace varifold

@@ -103,7 +103,7 @@ BorderStretches find_stretches(const SurfaceView& surface, const EdgeLinks& link
     for (const std::uint32_t corner : graph.ends[first]) {
       if (is_done[first] || !graph.points[corner].is_corner()) continue;
       const std::uint32_t h = graph.half_edges[first];
-      Stretch stretch{patch_of[h / 3], patch_of[links.across(h) / 3], {}};
+      Stretch stretch{patch_of[h / 3], patch_of[links.across(h) / 3], {}, {h, h}};
       stretch.path.push_back(graph.points[corner].point);
       std::uint32_t edge = first, at = corner;
       for (;;) {
@@ -111,6 +111,7 @@ BorderStretches find_stretches(const SurfaceView& surface, const EdgeLinks& link
         at = graph.ends[edge][0] == at ? graph.ends[edge][1] : graph.ends[edge][0];
         const BorderPoint& point = graph.points[at];
         stretch.path.push_back(point.point);
+        stretch.end_spokes[1] = graph.half_edges[edge];
         if (point.is_corner()) break;
         edge = point.edges[0] == edge ? point.edges[1] : point.edges[0];
       }

@@ -4,6 +4,7 @@
 #include <varifold/base/large_vector.h>
 #include <varifold/partition/edge_links.h>
 #include <varifold/partition/surface_view.h>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -12,8 +13,9 @@ namespace varifold {
 
 /// A stretch of border between two patches of one material, from corner to corner.
 struct Stretch {
-  std::uint32_t a = 0, b = 0;       ///< the patches
-  std::vector<std::uint32_t> path;  ///< points, corners included
+  std::uint32_t a = 0, b = 0;                 ///< the patches
+  std::vector<std::uint32_t> path;            ///< points, corners included
+  std::array<std::uint32_t, 2> end_spokes{};  ///< half-edges on the first and the last edge
 };
 
 /// What the borders leave to a point.

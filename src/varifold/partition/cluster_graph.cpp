@@ -17,13 +17,14 @@ struct Builder {
   const EdgeLinks& edges;
   const ClusterMap& map;
   bool across_materials;
-  float scale;  // of half lengths, to those of a surface of extent 1
+  float scale;  // of half lengths, which cannot run over
 
   // The cluster across a half-edge, or kNone.
   [[nodiscard]] std::uint32_t beyond(std::uint32_t half_edge) const {
     const std::uint32_t g =
         across_materials ? edges.across(half_edge) : edges.across_in_material(half_edge);
-    return g == kNone ? kNone : map.cluster_of[g / 3];
+    const std::uint32_t at = g / 3 - map.first;
+    return g == kNone || at >= map.cluster_of.size() ? kNone : map.cluster_of[at];
   }
   [[nodiscard]] float length(std::uint32_t half_edge) const {
     return glm::length(
@@ -36,19 +37,9 @@ struct Builder {
   [[nodiscard]] Vec3 side(std::uint32_t from, std::uint32_t to) const {
     return (0.5f * surface.positions[to] - 0.5f * surface.positions[from]) * scale;
   }
-  void describe(ClusterGraph& graph, std::uint32_t cluster,
-                std::span<const std::uint32_t> triangles, std::vector<std::uint32_t>& ends) const;
+  void list_borders(ClusterGraph& graph, std::span<const float> areas) const;
+  void describe(ClusterGraph& graph, std::uint32_t cluster, std::vector<std::uint32_t>& ends) const;
 };
-
-// Lengths are halved first: no extent of finite points is too large then.
-float half_length_scale(const SurfaceView& surface) {
-  Box box;
-  for (const Vec3& p : surface.positions) box.add(0.5f * p);
-  if (box.empty()) return 1;
-  const Vec3 extent = box.upper - box.lower;
-  const float scale = 1 / std::max({extent.x, extent.y, extent.z});
-  return std::isfinite(scale) ? scale : 1;
-}
 
 // Adds what a half-edge has in common with a neighbour to the row.
 void add_common_edge(ClusterLink* row, std::uint32_t& count, std::uint32_t other, float length) {
@@ -61,85 +52,96 @@ void add_common_edge(ClusterLink* row, std::uint32_t& count, std::uint32_t other
   row[count++] = {other, length, 1};
 }
 
+// Sums of this are equal where the points are, and hardly ever else.
+std::uint64_t mixed(std::uint32_t point) {
+  const std::uint64_t x = point * 0x9e3779b97f4a7c15u;
+  return x ^ (x >> 32);
+}
+
+// The row of points holds the half-edges on the border before.
 void Builder::describe(ClusterGraph& graph, std::uint32_t cluster,
-                       std::span<const std::uint32_t> triangles,
                        std::vector<std::uint32_t>& ends) const {
   ClusterShape& shape = graph.shapes[cluster];
-  shape.triangles = static_cast<std::uint32_t>(triangles.size());
   Row& link_row = graph.link_rows[cluster];
-  ends.clear();
-  for (const std::uint32_t t : triangles) {
-    shape.area += area(t);
-    for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
-      const std::uint32_t other = beyond(h);
-      if (other == cluster) continue;
-      const float edge = length(h);
-      shape.outline += edge;
-      ends.push_back(surface.corners[h]);
-      ends.push_back(surface.corners[next_in_triangle(h)]);
-      if (other == kNone) continue;
-      add_common_edge(graph.links.data() + link_row.begin, link_row.count, other, edge);
-    }
-  }
-  std::sort(ends.begin(), ends.end());
   Row& point_row = graph.point_rows[cluster];
   std::uint32_t* points = graph.points.data() + point_row.begin;
+  ends.clear();
+  std::uint64_t starts = 0, stops = 0;
+  for (std::uint32_t i = 0; i < point_row.count; ++i) {
+    const std::uint32_t h = points[i];
+    const float edge = length(h);
+    shape.outline += edge;
+    ends.push_back(surface.corners[h]);
+    starts += mixed(surface.corners[h]);
+    stops += mixed(surface.corners[next_in_triangle(h)]);
+    const std::uint32_t other = beyond(h);
+    if (other == kNone) continue;
+    add_common_edge(graph.links.data() + link_row.begin, link_row.count, other, edge);
+  }
+  if (starts != stops)  // not a sum of loops that all run the same way: look at both ends
+    for (std::uint32_t i = 0; i < point_row.count; ++i)
+      ends.push_back(surface.corners[next_in_triangle(points[i])]);
+  std::sort(ends.begin(), ends.end());
   point_row.count =
       static_cast<std::uint32_t>(std::unique_copy(ends.begin(), ends.end(), points) - points);
 }
 
-// Triangles by cluster.
-struct Members {
-  LargeVector<std::uint32_t> first, triangles;
-
-  Members(const ClusterMap& map) : first(std::size_t{map.count} + 1, 0) {
-    const auto n = static_cast<std::uint32_t>(map.cluster_of.size());
-    for (const std::uint32_t cluster : map.cluster_of)
-      if (cluster != kNone) ++first[cluster];
-    std::uint32_t total = 0;
-    for (std::uint32_t& f : first) f = total += f;
-    triangles.resize(total);
-    for (std::uint32_t t = n; t-- > 0;)
-      if (map.cluster_of[t] != kNone) triangles[--first[map.cluster_of[t]]] = t;
+// Lists the half-edges on the border of every cluster in its row of points. No row of links or
+// points will be longer.
+void Builder::list_borders(ClusterGraph& graph, std::span<const float> areas) const {
+  const auto n = static_cast<std::uint32_t>(map.cluster_of.size());
+  std::vector<std::uint32_t> borders;
+  borders.reserve(n);
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const std::uint32_t cluster = map.cluster_of[i], t = map.first + i;
+    if (cluster == kNone) continue;
+    ++graph.shapes[cluster].triangles;
+    if (areas.empty()) graph.shapes[cluster].area += area(t);
+    for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
+      if (beyond(h) == cluster) continue;
+      borders.push_back(h);
+      ++graph.point_rows[cluster].begin;
+    }
   }
-  [[nodiscard]] std::span<const std::uint32_t> of(std::uint32_t cluster) const {
-    return {triangles.data() + first[cluster], first[cluster + 1] - first[cluster]};
-  }
-};
-
-}  // namespace
-
-ClusterGraph build_cluster_graph(const SurfaceView& surface, const EdgeLinks& links,
-                                 const ClusterMap& map, bool across_materials, int threads) {
-  const Builder builder{surface, links, map, across_materials, half_length_scale(surface)};
-  const Members members(map);
-  ClusterGraph graph;
-  graph.unit = 2 / builder.scale;
-  graph.shapes.resize(map.count);
-  graph.link_rows.resize(map.count);
-  graph.point_rows.resize(map.count);
-
-  // Reserve a place per half-edge on a border: no row of links or points is longer.
-  parallel_for(threads, map.count, kGrain, [&](std::size_t begin, std::size_t end) {
-    for (auto c = static_cast<std::uint32_t>(begin); c < end; ++c)
-      for (const std::uint32_t t : members.of(c))
-        for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h)
-          graph.point_rows[c].begin += builder.beyond(h) != c;
-  });
   std::uint32_t total = 0;
   for (std::uint32_t c = 0; c < map.count; ++c) {
+    if (!areas.empty()) graph.shapes[c].area = areas[c];
     const std::uint32_t places = graph.point_rows[c].begin;
     graph.point_rows[c].begin = graph.link_rows[c].begin = total;
     total += places;
   }
   graph.links.resize(total);
   graph.points.resize(total);
+  for (const std::uint32_t h : borders) {
+    Row& row = graph.point_rows[map.cluster_of[h / 3 - map.first]];
+    graph.points[row.begin + row.count++] = h;
+  }
+}
 
-  parallel_for(threads, map.count, kGrain, [&](std::size_t begin, std::size_t end) {
+}  // namespace
+
+float length_unit(const SurfaceView& surface) {
+  Box box;
+  for (const Vec3& p : surface.positions) box.add(0.5f * p);
+  if (box.empty()) return 1;
+  const Vec3 half = box.upper - box.lower;
+  const float unit = 2 * std::max({half.x, half.y, half.z});
+  return std::isfinite(unit) && std::isfinite(2 / unit) ? unit : 1;
+}
+
+ClusterGraph build_cluster_graph(const SurfaceView& surface, const EdgeLinks& links,
+                                 const ClusterMap& map, const GraphOptions& options) {
+  const Builder builder{surface, links, map, options.across_materials, 2 / options.unit};
+  ClusterGraph graph;
+  graph.shapes.resize(map.count);
+  graph.link_rows.resize(map.count);
+  graph.point_rows.resize(map.count);
+  builder.list_borders(graph, options.areas);
+  parallel_for(options.threads, map.count, kGrain, [&](std::size_t begin, std::size_t end) {
     std::vector<std::uint32_t> ends;
-    for (auto c = static_cast<std::uint32_t>(begin); c < end; ++c)
-      builder.describe(graph, c, members.of(c), ends);
+    for (auto c = static_cast<std::uint32_t>(begin); c < end; ++c) builder.describe(graph, c, ends);
   });
+  if (!options.count_clusters_at) return graph;
   graph.clusters_at.assign(surface.positions.size(), 0);
   for (std::uint32_t c = 0; c < map.count; ++c)
     for (const std::uint32_t point : graph.points_of(c)) ++graph.clusters_at[point];

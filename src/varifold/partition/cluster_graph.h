@@ -10,8 +10,8 @@
 namespace varifold {
 
 struct ClusterShape {
-  float area = 0;     ///< where the longest side of the surface's box is 1
-  float outline = 0;  ///< length of the border, in the same unit
+  float area = 0;     ///< in squares of the unit of length
+  float outline = 0;  ///< length of the border
   std::uint32_t triangles = 0;
   std::int32_t euler = 1;  ///< Euler characteristic: 1 where the cluster is a disc
 };
@@ -38,11 +38,9 @@ struct ClusterGraph {
   LargeVector<ClusterShape> shapes;
   LargeVector<Row> link_rows, point_rows;
   LargeVector<ClusterLink> links;  ///< one per neighbour
-  /// The points on the border of a cluster, ascending, but for those that no other cluster has.
+  /// The points on the border of a cluster, ascending; those that no other cluster has may lack.
   LargeVector<std::uint32_t> points;
-  LargeVector<std::uint32_t> clusters_at;  ///< per point: how many clusters have it on their border
-
-  float unit = 1;  ///< model units per unit of length in shapes and links
+  LargeVector<std::uint32_t> clusters_at;  ///< per point: how many clusters have it, or empty
 
   [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(shapes.size()); }
   [[nodiscard]] std::span<ClusterLink> links_of(std::uint32_t cluster) {
@@ -56,17 +54,32 @@ struct ClusterGraph {
   }
 };
 
-/// A triangle's cluster each, or kNone where it takes no part.
+/// The clusters of the triangles from `first` on; kNone where a triangle takes no part. All others
+/// are like those that take none.
 struct ClusterMap {
   std::span<const std::uint32_t> cluster_of;
   std::uint32_t count = 0;
+  std::uint32_t first = 0;
 };
 
-/// The graph of the clusters; every euler is 1 yet. Borders of materials link clusters where
-/// `across_materials`, else they are like open ones. O(n).
+struct GraphOptions {
+  bool across_materials = false;  ///< else borders of materials are like open ones
+  /// Whether points that no other cluster has are to be found, which takes 4 B per point of the
+  /// surface.
+  bool count_clusters_at = true;
+  float unit = 1;  ///< see length_unit()
+  /// Per cluster, where they are known: the area, in squares of the unit.
+  std::span<const float> areas = {};
+  int threads = 0;
+};
+
+/// Model units per unit of length in a graph, so that no square of a length runs over or vanishes:
+/// the longest side of the box. O(points).
+[[nodiscard]] float length_unit(const SurfaceView& surface);
+
+/// The graph of the clusters; every euler is 1 yet. O(triangles of the map).
 [[nodiscard]] ClusterGraph build_cluster_graph(const SurfaceView& surface, const EdgeLinks& links,
-                                               const ClusterMap& map, bool across_materials,
-                                               int threads);
+                                               const ClusterMap& map, const GraphOptions& options);
 
 /// The Euler characteristic of every cluster, counted from points, edges and triangles. O(n).
 [[nodiscard]] std::vector<std::int32_t> euler_characteristics(const SurfaceView& surface,

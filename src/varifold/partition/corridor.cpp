@@ -10,10 +10,8 @@ namespace {
 // What counts as shorter: more than the rounding of sums along a path.
 constexpr float kShorter = 1 - 1e-5f;
 
-// Squares of floats could run over.
 float distance(const PatchedSurface& patched, std::uint32_t p, std::uint32_t q) {
-  return static_cast<float>(
-      glm::distance(DVec3(patched.surface.positions[p]), DVec3(patched.surface.positions[q])));
+  return glm::distance(patched.surface.positions[p], patched.surface.positions[q]);
 }
 
 float length(const PatchedSurface& patched, const std::vector<std::uint32_t>& path) {
@@ -42,44 +40,50 @@ void Corridor::for_each_neighbor(const PatchedSurface& patched, std::uint32_t po
     }
 }
 
-void Corridor::add(PatchedSurface& patched, std::uint32_t point, std::uint32_t spoke) {
-  if (node_at(patched, point) != kNone) return;
-  const std::uint32_t use = patched.borders.use_of[point];
-  if (use != PointUse::kInside && use != stretch_) return;
-  patched.node_of[point] = static_cast<std::uint32_t>(nodes_.size());
-  nodes_.push_back({point, spoke});
-}
-
-// The ends are no inner points: their fans are walked from a triangle beside the stretch.
-void Corridor::find_end_spoke(const PatchedSurface& patched, std::uint32_t node,
-                              std::uint32_t neighbor) {
-  const std::uint32_t end = nodes_[node].point;
-  for_each_neighbor(patched, neighbor, patched.borders.spokes[neighbor],
-                    [&](std::uint32_t point, std::uint32_t h) {
-                      if (point == end) nodes_[node].spoke = h;
-                    });
-}
-
-void Corridor::collect(PatchedSurface& patched) {
-  const std::vector<std::uint32_t>& path = patched.borders.stretches[stretch_].path;
-  nodes_[0].point = path.front();
-  nodes_[1].point = path.back();
+// Enters the points of the stretch.
+void Corridor::add_path(PatchedSurface& patched) {
+  const Stretch& old = patched.borders.stretches[stretch_];
+  const auto last = static_cast<std::uint32_t>(old.path.size() - 1);
+  nodes_[0] = {old.path.front(), old.end_spokes[0]};
+  nodes_[1] = {old.path.back(), old.end_spokes[1]};
   nodes_[0].in_old = 0;
-  nodes_[1].in_old = static_cast<std::uint32_t>(path.size() - 1);
-  find_end_spoke(patched, 0, path[1]);
-  find_end_spoke(patched, 1, path[path.size() - 2]);
-  for (std::uint32_t i = 1; i + 1 < path.size(); ++i) {
-    add(patched, path[i], patched.borders.spokes[path[i]]);
-    nodes_.back().in_old = i;
+  nodes_[1].in_old = last;
+  for (std::uint32_t i = 1; i < last; ++i) {
+    const std::uint32_t point = old.path[i];
+    patched.node_of[point] = static_cast<std::uint32_t>(nodes_.size());
+    Node& node = nodes_.emplace_back();
+    node.point = point;
+    node.spoke = patched.borders.spokes[point];
+    node.in_old = i;
+    node.remaining = distance(patched, point, nodes_[1].point);
   }
-  const std::size_t count = nodes_.size();
-  for (std::size_t i = 0; i < count; ++i)
-    for_each_neighbor(patched, nodes_[i].point, nodes_[i].spoke,
-                      [&](std::uint32_t point, std::uint32_t h) { add(patched, point, h); });
-  for (Node& node : nodes_) node.remaining = distance(patched, node.point, nodes_[1].point);
 }
 
-void Corridor::relax(std::uint32_t from, std::uint32_t to, float length) {
+// Whether a shorter path may lead through a point.
+bool Corridor::is_promising(const PatchedSurface& patched, std::uint32_t point) const {
+  return distance(patched, nodes_[0].point, point) + distance(patched, point, nodes_[1].point) <
+         kShorter * old_length_;
+}
+
+// The node of a point; kNone where no shorter path may lead there.
+std::uint32_t Corridor::reach(PatchedSurface& patched, std::uint32_t point, std::uint32_t spoke) {
+  const std::uint32_t known = node_at(patched, point);
+  const std::uint32_t use = patched.borders.use_of[point];
+  if (known != kNone || use == PointUse::kFixed || !is_promising(patched, point)) return known;
+  if (use != PointUse::kInside) {
+    is_blocked_ = true;
+    return kNone;
+  }
+  const auto number = static_cast<std::uint32_t>(nodes_.size());
+  patched.node_of[point] = number;
+  Node& node = nodes_.emplace_back();
+  node.point = point;
+  node.spoke = spoke;
+  node.remaining = distance(patched, point, nodes_[1].point);
+  return number;
+}
+
+void Corridor::relax(std::uint32_t from, std::uint32_t to, float length, std::uint32_t via) {
   Node& node = nodes_[to];
   const float reached = nodes_[from].distance + length;
   const bool is_known = node.parent != kNone || to == 0;
@@ -87,6 +91,7 @@ void Corridor::relax(std::uint32_t from, std::uint32_t to, float length) {
   if (reached + node.remaining >= kShorter * old_length_) return;  // no use
   node.distance = reached;
   node.parent = from;
+  node.via = via;
   heap_.push_back({reached + node.remaining, to});
   std::push_heap(heap_.begin(), heap_.end(), [](const Entry& x, const Entry& y) {
     return x.key != y.key ? x.key > y.key : x.node > y.node;
@@ -94,7 +99,7 @@ void Corridor::relax(std::uint32_t from, std::uint32_t to, float length) {
 }
 
 // A*; only what can still lead to a shorter path is looked at.
-bool Corridor::search(const PatchedSurface& patched) {
+bool Corridor::search(PatchedSurface& patched) {
   heap_.assign(1, {nodes_[0].remaining, 0});
   while (!heap_.empty()) {
     std::pop_heap(heap_.begin(), heap_.end(), [](const Entry& x, const Entry& y) {
@@ -106,29 +111,52 @@ bool Corridor::search(const PatchedSurface& patched) {
     if (nodes_[at].is_settled) continue;
     nodes_[at].is_settled = true;
     const std::uint32_t point = nodes_[at].point;
-    for_each_neighbor(patched, point, nodes_[at].spoke, [&](std::uint32_t neighbor, std::uint32_t) {
-      const std::uint32_t to = node_at(patched, neighbor);
-      if (to != kNone) relax(at, to, distance(patched, point, neighbor));
-    });
+    for_each_neighbor(patched, point, nodes_[at].spoke,
+                      [&](std::uint32_t neighbor, std::uint32_t h) {
+                        const std::uint32_t to = reach(patched, neighbor, h);
+                        if (to == kNone || nodes_[to].is_settled) return;
+                        relax(at, to, distance(patched, point, neighbor), h);
+                      });
   }
   return false;
 }
 
+// At an end of the stretch other patches begin; what is there may become part of the two.
+void Corridor::look_beyond(const PatchedSurface& patched, std::uint32_t end) {
+  const std::uint32_t point = nodes_[end].point, spoke = nodes_[end].spoke;
+  for (const std::uint32_t first : {spoke, other_spoke(patched.surface, spoke, point)})
+    for (std::uint32_t h = first; !is_blocked_;) {
+      const std::uint32_t g = patched.links.across_in_material(h);
+      if (g == kNone || g / 3 == spoke / 3) break;
+      const std::uint32_t neighbor = other_end(patched.surface, h, point);
+      const std::uint32_t patch = patched.patch(g / 3), before = patched.patch(h / 3);
+      const bool is_inside = (patch == a_ || patch == b_) && (before == a_ || before == b_);
+      is_blocked_ = !is_inside && is_promising(patched, neighbor);
+      h = other_spoke(patched.surface, g, point);
+    }
+}
+
 bool Corridor::find_shorter(PatchedSurface& patched, std::uint32_t stretch) {
   const Stretch& old = patched.borders.stretches[stretch];
-  stretch_ = stretch;
   nodes_.assign(2, {});
+  is_blocked_ = false;
   if (old.path.size() < 3) return false;  // an edge is straight
+  stretch_ = stretch;
   a_ = old.a;
   b_ = old.b;
   old_length_ = length(patched, old.path);
-  collect(patched);
-  if (nodes_[0].spoke == kNone || nodes_[1].spoke == kNone || !search(patched)) return false;
+  if (distance(patched, old.path.front(), old.path.back()) >= kShorter * old_length_) return false;
+  add_path(patched);
+  if (!search(patched)) {
+    for (const std::uint32_t end : {0u, 1u}) look_beyond(patched, end);
+    return false;
+  }
   path_.clear();
   for (std::uint32_t node = 1; node != kNone; node = nodes_[node].parent)
     path_.push_back(nodes_[node].point);
   std::reverse(path_.begin(), path_.end());
   for (std::uint32_t i = 0; i < path_.size(); ++i) nodes_[node_at(patched, path_[i])].in_new = i;
+  end_spokes_ = {nodes_[node_at(patched, path_[1])].via, nodes_[1].via};
   return true;
 }
 

@@ -12,7 +12,7 @@ namespace varifold {
 namespace {
 
 constexpr std::size_t kGrain = 4096;
-constexpr std::uint32_t kBoundSamples = 1024;
+constexpr std::uint32_t kBoundSamples = 256;
 constexpr float kBoundQuantile = 0.25f;
 constexpr float kClearlyMore = 1.001f;  // than rounding does
 constexpr std::uint32_t kLongRow = 64;
@@ -121,6 +121,7 @@ void MergeRounds::refresh_links(std::uint32_t cluster) {
   ClusterLink* links = graph_.links.data() + row.begin;
   const std::uint32_t since = choices_[cluster].chosen_at;
   const bool is_long = row.count > kLongRow;
+  const bool is_new = choices_[cluster].changed_at + 1 == round_;
   std::uint32_t kept = 0;
   for (std::uint32_t i = 0; i < row.count; ++i) {
     ClusterLink link = links[i];
@@ -134,7 +135,7 @@ void MergeRounds::refresh_links(std::uint32_t cluster) {
       continue;
     }
     combine(links[at], link);
-    note(link.other);
+    if (is_new) note(link.other);
   }
   row.count = kept;
   if (is_long) combine_equal({links, kept}, row.count);
@@ -326,24 +327,29 @@ void MergeRounds::merge_links(const Pair& pair) {
   graph_.link_rows[pair.a] = {pair.links, count};
 }
 
+// Whether another cluster has a point, after two that had it have merged.
+bool MergeRounds::is_shared(std::uint32_t point, bool was_common) {
+  // What no other cluster has is common to none: whether it is dropped now or, where another thread
+  // is about to lower its count, later, makes no difference to any result.
+  if (graph_.clusters_at.empty()) return true;
+  const std::atomic_ref<std::uint32_t> clusters(graph_.clusters_at[point]);
+  if (was_common) clusters.fetch_sub(1, std::memory_order_relaxed);
+  return clusters.load(std::memory_order_relaxed) > 1;
+}
+
 // Returns how many points the two have in common.
 std::uint32_t MergeRounds::merge_points(const Pair& pair) {
-  // A point that no other cluster has is common to none: whether it is dropped now or, where
-  // another thread is about to lower its count, later, makes no difference to any result.
   std::uint32_t* points = graph_.points.data() + pair.points;
   std::uint32_t count = 0, common = 0;
   const std::span<const std::uint32_t> p = graph_.points_of(pair.a), q = graph_.points_of(pair.b);
   for (std::size_t i = 0, j = 0; i < p.size() || j < q.size();) {
     const std::uint32_t x = i < p.size() ? p[i] : kNone, y = j < q.size() ? q[j] : kNone;
     const std::uint32_t point = std::min(x, y);
-    const std::atomic_ref<std::uint32_t> clusters(graph_.clusters_at[point]);
-    if (x == y) {
-      ++common;
-      clusters.fetch_sub(1, std::memory_order_relaxed);
-    }
-    if (clusters.load(std::memory_order_relaxed) > 1) points[count++] = point;
+    common += x == y;
     i += x <= y;
     j += y <= x;
+    points[count] = point;
+    count += is_shared(point, x == y);
   }
   graph_.point_rows[pair.a] = {pair.points, count};
   return common;

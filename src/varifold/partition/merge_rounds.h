@@ -37,6 +37,9 @@ class MergeRounds {
 
   /// Those that are left, ascending.
   [[nodiscard]] const std::vector<std::uint32_t>& alive() const { return alive_; }
+  [[nodiscard]] const ClusterShape& shape(std::uint32_t alive) const {
+    return graph_.shapes[alive];
+  }
   /// The cluster that a cluster of the start is part of now.
   [[nodiscard]] std::uint32_t cluster_of(std::uint32_t first) const { return resolve(first); }
 
@@ -80,6 +83,7 @@ class MergeRounds {
   void compact();
   void merge(const Pair& pair);
   void merge_links(const Pair& pair);
+  [[nodiscard]] bool is_shared(std::uint32_t point, bool was_common);
   [[nodiscard]] std::uint32_t merge_points(const Pair& pair);
 
   ClusterGraph graph_;

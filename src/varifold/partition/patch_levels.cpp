@@ -44,7 +44,8 @@ void add_links(ClusterGraph& graph,
 
 // Links patches of different components that follow each other on a Morton curve, so that the graph
 // is connected.
-void link_components(const SurfaceView& surface, const Partition& partition, ClusterGraph& graph) {
+void link_components(const SurfaceView& surface, const Partition& partition, float unit,
+                     ClusterGraph& graph) {
   DisjointSets components(graph.size());
   for (std::uint32_t c = 0; c < graph.size(); ++c)
     for (const ClusterLink& link : graph.links_of(c)) components.unite(c, link.other);
@@ -62,7 +63,7 @@ void link_components(const SurfaceView& surface, const Partition& partition, Clu
   for (std::size_t i = 1; i < curve.size(); ++i) {
     const std::uint32_t a = curve[i - 1].second, b = curve[i].second;
     if (components.find(a) == components.find(b)) continue;
-    const float gap = gap_between(boxes[a], boxes[b]) / graph.unit;
+    const float gap = gap_between(boxes[a], boxes[b]) / unit;
     extra.push_back({a, {b, -gap, 0}});
     extra.push_back({b, {a, -gap, 0}});
   }
@@ -103,19 +104,26 @@ void number_by_parents(PatchLevels& levels, Partition& partition) {
     std::stable_sort(parent.begin(), parent.end());
   }
   for (std::uint32_t& patch : partition.patch_of) patch = number[patch];
+  const std::vector<std::int32_t> euler = partition.euler;
+  for (std::uint32_t p = 0; p < partition.patch_count; ++p) partition.euler[number[p]] = euler[p];
 }
 
 }  // namespace
 
 PatchLevels make_levels(const SurfaceView& surface, Partition& partition, int threads) {
+  return make_levels(surface, EdgeLinks(surface), partition, threads);
+}
+
+PatchLevels make_levels(const SurfaceView& surface, const EdgeLinks& links, Partition& partition,
+                        int threads) {
   PatchLevels levels;
   if (partition.patch_count == 0) return levels;
-  const EdgeLinks links(surface);
   const ClusterMap map{partition.patch_of, partition.patch_count};
-  ClusterGraph graph = build_cluster_graph(surface, links, map, true, threads);
-  const std::vector<std::int32_t> euler = euler_characteristics(surface, links, map);
-  for (std::uint32_t c = 0; c < map.count; ++c) graph.shapes[c].euler = euler[c];
-  link_components(surface, partition, graph);
+  const float unit = length_unit(surface);
+  ClusterGraph graph = build_cluster_graph(
+      surface, links, map, {.across_materials = true, .unit = unit, .threads = threads});
+  for (std::uint32_t c = 0; c < map.count; ++c) graph.shapes[c].euler = partition.euler[c];
+  link_components(surface, partition, unit, graph);
 
   MergeRounds rounds(std::move(graph), threads);
   std::vector<std::uint32_t> number(map.count);
@@ -125,6 +133,10 @@ PatchLevels make_levels(const SurfaceView& surface, Partition& partition, int th
     for (std::uint32_t i = 0; i < rounds.alive().size(); ++i) number[rounds.alive()[i]] = i;
     std::vector<std::uint32_t>& parent = levels.parent.emplace_back();
     parent.reserve(before.size());
+    if (rounds.alive().size() == before.size()) {  // only where lengths are not finite
+      parent.assign(before.size(), 0);
+      break;
+    }
     for (const std::uint32_t c : before) parent.push_back(number[rounds.cluster_of(c)]);
   }
   levels.parent.emplace_back(1, kNone);

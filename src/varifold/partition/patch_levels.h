@@ -34,6 +34,9 @@ struct PatchLevels {
 /// same result for any number of threads. O(n), most of it to find the borders.
 [[nodiscard]] PatchLevels make_levels(const SurfaceView& surface, Partition& partition,
                                       int threads = 0);
+/// The same where the links of the surface are known.
+[[nodiscard]] PatchLevels make_levels(const SurfaceView& surface, const EdgeLinks& links,
+                                      Partition& partition, int threads);
 
 /// The patches that share at least one point with each patch, in rows.
 struct PatchNeighbors {

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <varifold/base/progress.h>
+#include <varifold/partition/edge_links.h>
 #include <varifold/partition/surface_view.h>
 #include <cstdint>
 #include <vector>
@@ -17,7 +18,7 @@ struct PartitionOptions {
   std::uint32_t triangles_per_patch = 1000;  ///< the mean that is aimed at; at least 1
   bool smooth = true;                        ///< shorten the borders between the patches
   int threads = 0;                           ///< 0 = all
-  Progress progress;
+  Progress progress;                         ///< stage "patches"
 };
 
 struct Partition {
@@ -25,6 +26,7 @@ struct Partition {
   std::uint32_t patch_count = 0;
   bool cancelled = false;  ///< by the progress callback; the rest is then empty
 
+  std::vector<std::int32_t> euler;       ///< Euler characteristics of the patches: of discs 1
   std::uint32_t non_discs = 0;           ///< patches whose Euler characteristic is not 1
   std::uint64_t border_edges = 0;        ///< edges between two patches
   double border_length = 0;              ///< of these edges, model units
@@ -43,5 +45,8 @@ inline constexpr float kMaxPatchExcess = 2.5f;
 /// number of threads. About O(n).
 [[nodiscard]] Partition make_patches(const SurfaceView& surface,
                                      const PartitionOptions& options = {});
+/// The same where the links of the surface are known.
+[[nodiscard]] Partition make_patches(const SurfaceView& surface, const EdgeLinks& links,
+                                     const PartitionOptions& options);
 
 }  // namespace varifold

@@ -37,8 +37,7 @@ TEST(MeanValueMap, MeasuresWhatStandsOut) {
   positions[middle].z = 1;
   const std::vector<float> squared = map_grid(positions, is_locked);
   EXPECT_NEAR(squared[middle], 1, 0.05);
-  for (std::size_t v = 0; v < squared.size(); ++v)
-    EXPECT_TRUE(v == middle || squared[v] == 0) << v;
+  for (std::size_t v = 0; v < squared.size(); ++v) EXPECT_TRUE(v == middle || squared[v] == 0) << v;
 }
 
 TEST(MeanValueMap, RimsSlideAlongThemselves) {

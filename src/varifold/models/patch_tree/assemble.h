@@ -3,7 +3,6 @@
 
 #include <varifold/mesh/triangle_mesh.h>
 #include <varifold/models/patch_tree/level_blocks.h>
-#include <varifold/models/patch_tree/level_errors.h>
 #include <varifold/models/patch_tree/patch_tree.h>
 #include <varifold/partition/patch_levels.h>
 #include <varifold/simplify/working_surface.h>
@@ -24,15 +23,6 @@ struct AssembledLevel {
 /// Per patch of the next level, and one more: its first child.
 [[nodiscard]] std::vector<std::uint32_t> first_children(const AssembledLevel& level,
                                                         std::uint32_t parent_count);
-
-/// What replacing the level's patches by their parents costs. The level before it is halved is in
-/// the blocks, the surface is that after. O(vertices).
-void add_errors(AssembledLevel& level, const LevelErrors& errors, const WorkingSurface& surface);
-
-/// The same for the mean squares alone, by mean value coordinates; vertices that these have no
-/// place for count as they did. O(vertices x rounds).
-void add_mean_value_errors(AssembledLevel& level, const LevelErrors& errors,
-                           const WorkingSurface& surface, int threads);
 
 /// Numbers the nodes, gathers vertices, and nests bounds and errors. `levels` run from the leaves
 /// on. O(size of the tree).

@@ -5,6 +5,7 @@
 #include <varifold/models/patch_tree/level_blocks.h>
 #include <varifold/models/patch_tree/level_errors.h>
 #include <varifold/models/patch_tree/level_halving.h>
+#include <varifold/models/patch_tree/patch_errors.h>
 #include <varifold/partition/patch_levels.h>
 #include <varifold/partition/patches.h>
 #include <varifold/simplify/input_fault.h>

@@ -2,9 +2,10 @@
 //
 // Based on: [Birkholz2007] section 3 (mean squared distance of the children's vertices).
 // Differs: each vertex that went is measured to the nearest place of the coarser surface around its
-//   survivor; beside the mean, the greatest distance of samples of the original is kept.
+//   survivor; beside the mean, the greatest distance of any vertex of the original is kept.
 #pragma once
 
+#include <varifold/simplify/star_triangles.h>
 #include <varifold/simplify/working_surface.h>
 #include <cstdint>
 #include <span>
@@ -13,32 +14,42 @@
 
 namespace varifold {
 
-/// Distances of the levels, in the units of the surface. A point of the surface carries the sample
-/// of the original that was farthest from the surface around it.
+/// Distances of the levels, in the units of the surface. Every point of the original is carried by
+/// a point of the level, in whose star its nearest place was found: at first itself. What is
+/// measured is the distance to some place of the surface, so never less than that to the nearest.
 class LevelErrors {
  public:
-  explicit LevelErrors(const WorkingSurface& surface, int threads);
+  LevelErrors(const WorkingSurface& surface, int threads);
 
   /// The surface has been halved: `went` are the points that collapsed, each with the point where
-  /// it ended up; `live` are those that are left. O(points).
+  /// it ended up; `live` are those that are left. O(points of the original).
   void measure(std::span<const std::pair<std::uint32_t, std::uint32_t>> went,
                std::span<const std::uint32_t> live);
 
   /// Of a point that went with the last level, or stayed: the squared distance from where it was to
   /// the surface.
-  [[nodiscard]] float squared_step(std::uint32_t point) const { return step_[point]; }
-  /// Of a live point: how far the samples that it stands for are from the surface.
+  [[nodiscard]] float squared_step(std::uint32_t point) const { return squared_[point]; }
+  /// Of a live point: how far the points that it carries are from the surface at most.
   [[nodiscard]] float greatest(std::uint32_t point) const { return greatest_[point]; }
 
  private:
-  [[nodiscard]] float squared_distance(std::uint32_t sample, std::uint32_t point) const;
-  void carry(std::uint32_t point, std::uint32_t sample, float squared);
+  struct Scratch {
+    std::vector<StarTriangle> star;
+    std::vector<std::uint32_t> rim;  // m and n of each
+  };
+  void sort_by_carrier();
+  void measure_carried(std::uint32_t point, Scratch& scratch);
+  void measure_batch(std::span<const std::uint32_t> samples, const Scratch& scratch);
+  void find_star(std::uint32_t point, Scratch& scratch) const;
+  void walk_on(std::uint32_t sample, std::uint32_t next);
 
   const WorkingSurface& surface_;
   int threads_;
-  std::vector<float> step_;  // squared
-  std::vector<float> greatest_;
-  std::vector<std::uint32_t> sample_;  // a point of the original
+  std::vector<std::uint32_t> carrier_;  // per point of the original
+  std::vector<float> squared_;          // ... its distance
+  std::vector<float> greatest_;         // per live point
+  // The samples of each point that carries others, in rows.
+  std::vector<std::uint32_t> first_, samples_;
 };
 
 }  // namespace varifold

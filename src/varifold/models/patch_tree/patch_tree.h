@@ -19,8 +19,8 @@ namespace varifold {
 /// What choosing a front needs to know of a node.
 struct PatchBounds {
   Sphere ball;  ///< holds the patch and all that stands below it; so it holds those of the children
-  /// How far the patch is off the original, model units: not less than that of any child; 0 for
-  /// leaves.
+  /// How far the patch is off the original, model units: not less than the distance of any vertex
+  /// of the original that the patch stands for, nor than the error of any child; 0 for leaves.
   float error = 0;
   /// The paper's priority: the mean squared distance between the vertices of the children and the
   /// patch; not less than that of any child; 0 for leaves.

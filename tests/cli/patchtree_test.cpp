@@ -1,0 +1,189 @@
+// What the tool does with patch trees beyond other kinds of models.
+#include <gtest/gtest.h>
+
+#include <tests/cli/run_tool.h>
+#include <tests/support/test_files.h>
+#include <varifold/io/model_file.h>
+#include <set>
+
+namespace varifold {
+namespace {
+
+using nlohmann::json;
+using test::bytes_of;
+using test::run_tool;
+using test::ToolResult;
+
+class PatchTreeTool : public ::testing::Test {
+ protected:
+  [[nodiscard]] std::string path(const std::string& name) const { return folder_.file(name); }
+  [[nodiscard]] static json run_json(std::vector<std::string> arguments) {
+    arguments.emplace_back("--json");
+    const ToolResult result = run_tool(arguments);
+    EXPECT_EQ(result.exit_code, 0) << ::testing::PrintToString(arguments) << result.err;
+    return result.json();
+  }
+  [[nodiscard]] json make(const std::vector<std::string>& more = {}) const {
+    EXPECT_EQ(
+        run_tool({"generate", "planet", "--triangles", "20000", "-o", path("m.ply")}).exit_code, 0);
+    std::vector<std::string> arguments{"build",   "patchtree", path("m.ply"), "--ignore",
+                                       "normals", "-o",        path("m.vfm")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_json(arguments);
+  }
+  [[nodiscard]] json extract(const std::vector<std::string>& more) const {
+    std::vector<std::string> arguments{"extract", path("m.vfm"), "-o", path("front.ply")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_json(arguments);
+  }
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(PatchTreeTool, BuildTellsOfTheTree) {
+  const json told = make({"--patch-triangles", "128"});
+  EXPECT_EQ(told["triangles"], 20480);
+  EXPECT_EQ(told["stop_reason"], "one_root");
+  EXPECT_EQ(told["roots"], 1);
+  EXPECT_GT(told["nodes"], 250);
+  EXPECT_LE(told["stored_ratio"], 2.05);
+  EXPECT_LT(told["file_bytes_per_triangle"], 30);
+  EXPECT_EQ(told["error_is_measured"], false);
+  for (const char* const key :
+       {"read_seconds", "partition_seconds", "simplify_seconds", "measure_seconds",
+        "layout_seconds", "model_seconds", "write_seconds", "triangles_per_second"})
+    EXPECT_GT(told[key], 0) << key;
+  // Fewer patches of more triangles.
+  EXPECT_LT(make({"--patch-triangles", "1000"})["nodes"], told["nodes"].get<int>() / 5);
+  for (const char* const wrong : {"0", "4001", "x"})
+    EXPECT_EQ(run_tool({"build", "patchtree", path("m.ply"), "--patch-triangles", wrong, "-o",
+                        path("w.vfm")})
+                  .exit_code,
+              2);
+}
+
+// A patch is where the head says, in the file itself.
+TEST_F(PatchTreeTool, OffsetsAreThoseOfTheFile) {
+  (void)make({"--patch-triangles", "128"});
+  const json chunk = run_json({"info", path("m.vfm")})["chunks"][0];
+  EXPECT_EQ(chunk["compressed"], false);
+  EXPECT_EQ(chunk["file_bytes"], chunk["raw_bytes"]);
+  EXPECT_NE(bytes_of(path("m.vfm")).find("VPT1"), std::string::npos);
+}
+
+TEST_F(PatchTreeTool, ExtractFrontsThatAreClosed) {
+  (void)make({"--patch-triangles", "64"});
+  const std::vector<std::string> view{"--eye", "1.6,0,0", "--target", "0,0,0"};
+  std::uint64_t collapsed = 0;
+  for (const std::vector<std::string>& level : std::vector<std::vector<std::string>>{
+           {"--pixels", "2"}, {"--pixels", "0.5", "--triangles", "3000"}, {"--triangles", "900"}}) {
+    std::vector<std::string> arguments = view;
+    arguments.insert(arguments.end(), level.begin(), level.end());
+    const json front = extract(arguments);
+    EXPECT_FALSE(front.contains("level"));
+    collapsed += front["collapsed_triangles"].get<std::uint64_t>();
+    const std::uint64_t stored =
+        front["triangles"].get<std::uint64_t>() + front["collapsed_triangles"].get<std::uint64_t>();
+    if (level.back() == "3000") {
+      EXPECT_LE(stored, 3000u);
+      EXPECT_GT(stored, 2700u);
+    }
+    EXPECT_EQ(run_tool({"check", path("front.ply"), "--closed"}).exit_code, 0);
+  }
+  EXPECT_GT(collapsed, 0u);
+  const json sphere = extract({"--sphere", "1,0,0,0.2"});
+  EXPECT_EQ(run_tool({"check", path("front.ply"), "--closed"}).exit_code, 0);
+  EXPECT_LT(sphere["triangles"], 12000);
+  EXPECT_EQ(extract({"--lod", "1"})["triangles"], 20480);
+}
+
+TEST_F(PatchTreeTool, CheckLooksAtFronts) {
+  (void)make({"--patch-triangles", "64"});
+  const json sound = run_json({"check", path("m.vfm"), "--fronts", "40"});
+  EXPECT_EQ(sound["sound"], true) << sound;
+  EXPECT_EQ(sound["fronts_checked"], 40);
+  EXPECT_GT(sound["collapsed_triangles"], 0);
+
+  // The bit of another neighbour: checksums are right, and so are all levels.
+  const auto any = read_any_model(path("m.vfm"));
+  ASSERT_TRUE(any);
+  PatchTreeData data = std::get<std::shared_ptr<const PatchTree>>(*any)->data();
+  for (std::uint32_t node = data.topology.first_of_level[1]; node < data.bounds.size(); ++node) {
+    if (data.topology.neighbors_of(data.topology.parent[node]).size() < 2) continue;
+    for (std::uint32_t i = data.offsets[node].controller; i < data.offsets[node + 1].controller;
+         ++i)
+      data.controllers[i] = data.controllers[i] == 0 ? 1 : 0;
+  }
+  ASSERT_TRUE(write_model(PatchTree(std::move(data)), path("bad.vfm")));
+  const ToolResult result = run_tool({"check", path("bad.vfm"), "--fronts", "40", "--json"});
+  EXPECT_EQ(result.exit_code, 1) << result.err;
+  std::set<std::string> kinds;
+  const json told = result.json();
+  for (const json& fault : told["faults"]) kinds.insert(fault["kind"]);
+  EXPECT_EQ(kinds.count("wrong_controller"), 1u) << result.out;
+  EXPECT_EQ(kinds.count("front_open_edge"), 1u) << result.out;
+}
+
+TEST_F(PatchTreeTool, BenchComparesWithFrontsFromTheRoots) {
+  (void)make({"--patch-triangles", "64"});
+  const json told = run_json({"bench", path("m.vfm"), "--test", "camera", "--path", "orbit",
+                              "--triangles", "5000", "--per-frame"})["results"][0];
+  EXPECT_GT(told["patches_mean"], 10);
+  EXPECT_GT(told["from_roots_ms_p50"], 0);
+  EXPECT_LE(told["triangles_max"], 5000);
+  for (const json& frame : told["per_frame"]) {
+    EXPECT_GT(frame["patches"], 0);
+    EXPECT_LE(frame["triangles"], 5000);
+  }
+}
+
+TEST_F(PatchTreeTool, ThePapersPriority) {
+  (void)make({"--patch-triangles", "64"});
+  const auto bench = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"bench",  path("m.vfm"), "--test",
+                                       "camera", "--path",      "dive"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  };
+  const json pixels = run_json(bench({"--triangles", "5000"}))["results"][0];
+  const json paper = run_json(bench({"--triangles", "5000", "--paper-priority"}))["results"][0];
+  EXPECT_NE(pixels["frames_checksum"], paper["frames_checksum"]);
+  EXPECT_LE(paper["triangles_max"], 5000);
+  EXPECT_EQ(run_tool(bench({"--paper-priority"})).exit_code, 2);
+  // Along the surface counts, too, by mean values.
+  (void)make({"--patch-triangles", "64", "--priority", "mean-value"});
+  const json mean = run_json(bench({"--triangles", "5000", "--paper-priority"}))["results"][0];
+  EXPECT_NE(mean["frames_checksum"], paper["frames_checksum"]);
+}
+
+TEST_F(PatchTreeTool, RenderShowsPatchesAndCracks) {
+  (void)make({"--patch-triangles", "64"});
+  const auto render = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"render", path("m.vfm"),     "-o",       path("m.png"),
+                                       "--size", "200x150",         "--sphere", "1,0,0,0.3",
+                                       "--json", "--supersampling", "1"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_tool(arguments);
+  };
+  const ToolResult plain = render({});
+  if (plain.exit_code == 1 && plain.err.find("EGL") != std::string::npos)
+    GTEST_SKIP() << "no OpenGL here: " << plain.err;
+  ASSERT_EQ(plain.exit_code, 0) << plain.err;
+  EXPECT_GT(plain.json()["collapsed_triangles"], 0);
+  std::set<std::string> pictures{bytes_of(path("m.png"))};
+  for (const std::vector<std::string>& how : std::vector<std::vector<std::string>>{
+           {"--color", "patch"}, {"--color", "level"}, {"--no-border-switch"}}) {
+    const ToolResult drawn = render(how);
+    ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+    EXPECT_EQ(drawn.json()["patches"], plain.json()["patches"]);
+    EXPECT_EQ(drawn.json()["collapsed_triangles"] == 0, how[0] == "--no-border-switch");
+    pictures.insert(bytes_of(path("m.png")));
+  }
+  EXPECT_EQ(pictures.size(), 4u);
+  EXPECT_EQ(run_tool({"render", path("m.ply"), "--color", "patch", "-o", path("m.png")}).exit_code,
+            2);
+  EXPECT_EQ(
+      run_tool({"render", path("m.ply"), "--no-border-switch", "-o", path("m.png")}).exit_code, 2);
+}
+
+}  // namespace
+}  // namespace varifold
