@@ -66,7 +66,7 @@ Result<std::size_t> PatchBuffers::create(const PatchDrawList& list) {
     glEnableVertexArrayAttrib(array, attribute);
   }
   glVertexArrayBindingDivisor(array, 0, 1);
-  const auto updated = update(list);
+  auto updated = update(list);
   if (!updated) return updated;
   return uploaded + *updated;
 }
