@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <tests/models/patch_tree/built_trees.h>
 
+#include <varifold/base/checksum.h>
 #include <varifold/measure/check_patch_tree.h>
 #include <varifold/measure/legal_fronts.h>
 #include <varifold/measure/surface_counts.h>
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <numeric>
 #include <set>
+#include <span>
 #include <string>
 
 namespace varifold::test {
@@ -47,12 +49,12 @@ TEST(SurfaceCounts, AreThoseOfTheTopology) {
 
 TEST(LegalFronts, AreLegalAndOfAllSorts) {
   const PatchTopology& t = built_tree("blob of patches of 40").tree->topology();
-  std::set<std::vector<std::uint8_t>> different;
+  std::set<std::uint64_t> different;
   for (std::uint32_t number = 0; number < 60; ++number) {
     const check::LegalFront front = check::legal_front(t, number);
     EXPECT_TRUE(is_legal(t, front.is_split)) << front.name;
     EXPECT_EQ(front.is_split, check::legal_front(t, number).is_split);
-    different.insert(front.is_split);
+    different.insert(checksum(std::as_bytes(std::span(front.is_split))));
   }
   EXPECT_GT(different.size(), 45u);
 }

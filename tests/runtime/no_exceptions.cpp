@@ -2,7 +2,9 @@
 // cmake/check_no_exceptions.sh. One vertex split by hand, there and back, and through its bytes.
 #include <varifold/models/mts/encoding.h>
 #include <varifold/models/mts/instance.h>
+#include <varifold/models/patch_tree/encoding.h>
 #include <varifold/models/patch_tree/front.h>
+#include <varifold/models/patch_tree/instance.h>
 #include <varifold/models/pm/encoding.h>
 #include <varifold/models/pm/geomorph.h>
 #include <varifold/models/pm/instance.h>
@@ -101,7 +103,7 @@ bool strips_are_right() {
 }
 
 // A patch of one triangle, which is two of two triangles each in detail.
-bool patch_front_is_right() {
+varifold::PatchTreeData patch_tree() {
   varifold::PatchTreeData data;
   data.topology.first_of_level = {0, 1, 3};
   data.topology.parent = {varifold::kNone, 0, 0};
@@ -112,7 +114,15 @@ bool patch_front_is_right() {
   for (varifold::PatchBounds& bounds : data.bounds) bounds.ball.radius = 1;
   data.bounds[0].error = 0.5f;
   data.offsets = {{0, 0, 0, 0}, {3, 1, 0, 1}, {7, 3, 0, 2}, {11, 5, 0, 3}};
-  varifold::PatchFront front(std::make_shared<const varifold::PatchTree>(std::move(data)));
+  data.vertices.positions.assign(11, {0, 0, 0});
+  data.survivors = {0, 1, 2, 0, 1, 2, 2, 0, 1, 2, 2};
+  data.corners = {0, 1, 2, 0, 1, 2, 2, 1, 3, 0, 1, 2, 2, 1, 3};
+  data.ranges = {{0, 1, 1}, {0, 2, 2}, {0, 2, 2}};
+  return data;
+}
+
+bool patch_front_is_right() {
+  varifold::PatchFront front(std::make_shared<const varifold::PatchTree>(patch_tree()));
   varifold::RefineCriteria criteria;
   criteria.view.emplace(varifold::Camera{});
   const bool fine = front.adapt(criteria, {}).statistics.triangles == 4;
@@ -120,6 +130,17 @@ bool patch_front_is_right() {
   options.limits.max_triangles = 3;
   const bool coarse = front.adapt(criteria, options).statistics.triangles == 1;
   return fine && coarse && front.draws().draws().size() == 1;
+}
+
+bool patch_bytes_are_right() {
+  const auto bytes = varifold::encode_patch_tree(varifold::PatchTree(patch_tree()));
+  auto decoded = varifold::decode_patch_tree(bytes);
+  if (!decoded || varifold::decode_patch_tree(std::span(bytes).first(40))) return false;
+  varifold::PatchTreeInstance instance(
+      std::make_shared<const varifold::PatchTree>(std::move(*decoded)));
+  const bool coarse = varifold::submitted_triangles(instance.draw_list()) == 1;
+  instance.go_to_level(1);
+  return coarse && varifold::submitted_triangles(instance.draw_list()) == 4;
 }
 
 }  // namespace
@@ -139,7 +160,7 @@ int main() {
   geomorph.blend(0);
   const bool morphs = geomorph.mesh().positions[3] == varifold::Vec3(0, 0, 0);
   if (!refined || !undone || !survives || !refused || !morphs || !strips_are_right() ||
-      !graphs_are_right() || !patch_front_is_right()) {
+      !graphs_are_right() || !patch_front_is_right() || !patch_bytes_are_right()) {
     std::puts("no exceptions: a level is wrong");
     return 1;
   }

@@ -121,13 +121,12 @@ class PatchTree {
   /// vertices that only children need count, too.
   [[nodiscard]] std::uint32_t vertex_count(std::uint32_t level) const;
   [[nodiscard]] std::uint32_t triangle_count(std::uint32_t level) const;
-  /// How far samples of the full mesh are off the level at most, model units; not greater than that
-  /// of the coarser level. No bound for all of its vertices: a few may be farther, by a tenth or
-  /// so.
+  /// How far vertices of the full mesh are off the level at most, model units; not greater than
+  /// that of the coarser level.
   [[nodiscard]] float error(std::uint32_t level) const {
     return level < level_errors_.size() ? level_errors_[level] : 0;
   }
-  [[nodiscard]] static bool error_is_measured() { return false; }
+  [[nodiscard]] static bool error_is_measured() { return true; }
   /// The finest level with at most so many triangles or vertices; 0 where even that has more.
   [[nodiscard]] std::uint32_t level_for_triangles(std::uint32_t count) const;
   [[nodiscard]] std::uint32_t level_for_vertices(std::uint32_t count) const;
