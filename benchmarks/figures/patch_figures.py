@@ -11,7 +11,7 @@ import sys
 import tempfile
 
 PATCH = "100"  # triangles, as in the paper
-SIZE = ["--size", "640x480"]
+SIZE = ["--size", "400x300"]
 
 
 class Tool:

@@ -339,6 +339,10 @@ TEST_F(PatchesTest, BadListsAndOrdersAreErrors) {
   const auto first = renderer().add(sound), second = renderer().add(sound);
   ASSERT_TRUE(first && second);
   EXPECT_NE(*first, *second);
+  EXPECT_EQ(*renderer().update(*first, sound), sound.changed_draws.size() * 40);
+  bad = sound;
+  bad.indices = sound.indices.first(sound.indices.size() - 3);
+  EXPECT_EQ(renderer().update(*first, bad).error().kind, ErrorKind::kInvalidInput);
   renderer().remove(*first);
   EXPECT_FALSE(renderer().update(*first, sound));
   EXPECT_EQ(*renderer().add(sound), *first);

@@ -51,6 +51,8 @@ Result<std::size_t> PatchBuffers::create(const PatchDrawList& list) {
     storages_[i] = make_static_buffer(sources[i]);
     uploaded += sources[i].size();
   }
+  vertex_count_ = list.positions.size();
+  index_count_ = list.indices.size();
   indices_ = make_static_buffer(std::as_bytes(list.indices));
   vertex_array_ = make_vertex_array();
   const GLuint array = vertex_array_.name();
@@ -64,12 +66,14 @@ Result<std::size_t> PatchBuffers::create(const PatchDrawList& list) {
     glEnableVertexArrayAttrib(array, attribute);
   }
   glVertexArrayBindingDivisor(array, 0, 1);
-  const auto updated = update(list);
+  auto updated = update(list);
   if (!updated) return updated;
   return uploaded + *updated;
 }
 
 Result<std::size_t> PatchBuffers::update(const PatchDrawList& list) {
+  if (list.positions.size() != vertex_count_ || list.indices.size() != index_count_)
+    return fail(ErrorKind::kInvalidInput, "patches: vertices or indices of another model");
   const auto check = [&](std::size_t draw) { return check_draw(list, draw); };
   for (const std::uint32_t draw : list.changed_draws)
     if (auto sound = check(draw); !sound) return tl::unexpected<Error>(std::move(sound.error()));

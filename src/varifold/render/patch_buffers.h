@@ -21,7 +21,7 @@ class PatchBuffers {
   /// kFailed when memory ends. Returns the bytes uploaded.
   [[nodiscard]] Result<std::size_t> create(const PatchDrawList& list);
   /// Uploads the commands that changed, neighbouring ones together. Returns the bytes uploaded;
-  /// kInvalidInput where a command does not fit the list.
+  /// kInvalidInput where a command does not fit the list, or the list what create() uploaded.
   [[nodiscard]] Result<std::size_t> update(const PatchDrawList& list);
   /// Uploads colours by material, unless they are those of the call before. Returns their number.
   int set_materials(std::span<const Vec4> colors);
@@ -35,6 +35,7 @@ class PatchBuffers {
   Buffer storages_[kCount];
   Buffer indices_;
   PatchedBuffer commands_;
+  std::size_t vertex_count_ = 0, index_count_ = 0;
   std::uint32_t draw_count_ = 0;
   std::vector<std::uint32_t> changed_;  // sorted; kept, so that frames do not allocate
   std::vector<ElementRange> ranges_;

@@ -105,7 +105,7 @@ void main() {
   vec3 way = vec3(0);
   vec3 position = own;
   float weight = 1.0;
-  while (morph_band > 0.0) {
+  for (int step = 0; step < 64 && morph_band > 0.0; ++step) {  // far more than there are levels
     uvec2 morph = morphs[v];
     if (morph.x == v) break;
     float part = morph_part(position, uintBitsToFloat(morph.y));

@@ -225,12 +225,13 @@ int BorderGuard::count_paths() {
   };
   int paths = 0;
   std::size_t walked = 0;
-  for (const auto& [start, next] : link_) {
-    const bool is_start = std::none_of(link_.begin(), link_.end(),
-                                       [&](const auto& edge) { return edge.second == start; });
+  for (const auto& first : link_) {
+    const bool is_start = std::none_of(
+        link_.begin(), link_.end(), [&](const auto& edge) { return edge.second == first.first; });
     if (!is_start) continue;
     ++paths;
-    for (auto edge = leaving(start); edge != link_.end(); edge = leaving(edge->second)) ++walked;
+    for (auto edge = leaving(first.first); edge != link_.end(); edge = leaving(edge->second))
+      ++walked;
   }
   return walked == size ? paths : -1;
 }

@@ -12,6 +12,7 @@
 #include <varifold/simplify/working_surface.h>
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -87,7 +88,8 @@ class BorderGuard final : public CollapseGuard {
   struct Need {
     std::uint32_t region = kNone;
     bool coarse = false;
-    friend auto operator<=>(const Need&, const Need&) = default;
+    // A number for each: an order that no other use is made of.
+    [[nodiscard]] std::uint64_t key() const { return 2 * std::uint64_t{region} + (coarse ? 1 : 0); }
   };
   // An edge between two points of borders as a region may show it.
   struct Chord {
@@ -95,7 +97,13 @@ class BorderGuard final : public CollapseGuard {
     Need needs[3];         // the region itself, and what moves the ends
     std::uint32_t beyond;  // the region on the other side; the same inside a region
     std::uint32_t a, b;    // numbers of the border points that were its ends in K
-    friend auto operator<=>(const Chord&, const Chord&) = default;
+    friend bool operator<(const Chord& x, const Chord& y) {
+      const auto key = [](const Chord& c) {
+        return std::tuple(c.edge, c.needs[0].key(), c.needs[1].key(), c.needs[2].key(), c.beyond,
+                          c.a, c.b);
+      };
+      return key(x) < key(y);
+    }
     [[nodiscard]] bool is_border() const { return beyond != needs[0].region; }
   };
   using Link = std::vector<std::pair<std::uint32_t, std::uint32_t>>;

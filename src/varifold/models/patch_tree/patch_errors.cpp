@@ -48,6 +48,7 @@ void add_mean_value_errors(AssembledLevel& level, const LevelErrors& errors,
     std::sort(points.begin(), points.end());
     points.erase(std::unique(points.begin(), points.end()), points.end());
     std::vector<Vec3> positions;
+    positions.reserve(points.size());
     for (const std::uint32_t p : points) positions.push_back(surface.points[p].position);
     const auto local = [&](std::uint32_t point) {
       return static_cast<std::uint32_t>(std::lower_bound(points.begin(), points.end(), point) -
