@@ -188,8 +188,8 @@ const char* HeadReader::take_counts_of(std::uint32_t node) {
   if (!section_.good()) return "the counts of a patch do not fit, or end too early";
   if (moving > 0 && head_.topology.parent[node] == kNone) return "a root has vertices that move";
   if ((ranges == 0) != (triangles == 0)) return "a patch has no range";
-  // Three indices a triangle, and slots behind them, have numbers of 32 bits.
-  constexpr std::uint32_t kMaxTriangles = std::uint32_t{1} << 30;
+  // Indices have numbers of 32 bits: three a triangle, and three more for those at borders.
+  constexpr std::uint32_t kMaxTriangles = std::uint32_t{1} << 29;
   const bool fit = triangles < kMaxTriangles - last.triangle && ranges < kMaxTriangles &&
                    vertices < kNone - last.vertex && block < kMaxBlock;
   if (!fit) return "the patches are too large";

@@ -8,138 +8,107 @@ namespace varifold {
 
 DrawSlots::DrawSlots(std::shared_ptr<const PatchTree> tree) : tree_(std::move(tree)) {
   const PatchTreeData& data = tree_->data();
-  std::uint32_t most_border = 0;
-  for (std::uint32_t node = 0; node < tree_->node_count(); ++node) {
-    const PatchOffsets& at = data.offsets[node];
-    const PatchOffsets& end = data.offsets[node + 1];
-    std::uint32_t border = 0;
-    for (std::uint32_t r = at.range; r < end.range; ++r)
-      border += data.ranges[r].triangle_count - data.ranges[r].constant_triangles;
-    most_border = std::max(most_border, border);
-    ranges_per_slot_ = std::max(ranges_per_slot_, 2 * (end.range - at.range));
+  slots_.reserve(data.ranges.size());
+  auto index = static_cast<std::uint32_t>(data.corners.size());
+  for (const PatchRange& range : data.ranges) {
+    slots_.push_back({index, 0});
+    index += 3 * (range.triangle_count - range.constant_triangles);
   }
-  first_slot_ = static_cast<std::uint32_t>(data.corners.size());
-  slot_indices_ = 3 * most_border;
-  // No front has more patches than there are leaves. What is not used costs addresses alone, and
-  // the triangles of all patches need not move when a front grows.
-  const PatchTopology& t = data.topology;
-  most_slots_ = t.level_count() == 0 ? 0 : t.node_count() - t.first_of_level[t.level_count() - 1];
-  indices_.reserve(first_slot_ + most_slots_ * slot_indices_);
-  slot_ranges_.reserve(most_slots_ * ranges_per_slot_);
+  indices_.resize(index);
+  written_.resize(tree_->node_count(), 0);
+  level_of_.reserve(tree_->node_count());
   for (std::uint32_t node = 0; node < tree_->node_count(); ++node) {
     const PatchOffsets& at = data.offsets[node];
     for (std::size_t i = 3 * std::size_t{at.triangle};
          i < 3 * std::size_t{data.offsets[node + 1].triangle}; ++i)
-      indices_.push_back(at.vertex + data.corners[i]);
+      indices_[i] = at.vertex + data.corners[i];
+    level_of_.push_back(static_cast<std::uint8_t>(std::min(tree_->level_of(node), 255u)));
   }
 }
 
-void DrawSlots::mark(std::span<const std::uint32_t> slots) {
-  for (const std::uint32_t slot : slots) {
-    if (slot >= is_marked_.size()) is_marked_.resize(slot + std::size_t{1}, 0);
-    if (is_marked_[slot] == 0) marked_.push_back(slot);
-    is_marked_[slot] = 1;
+void DrawSlots::mark(std::span<const std::uint32_t> places) {
+  for (const std::uint32_t place : places) {
+    if (place >= is_marked_.size()) is_marked_.resize(place + std::size_t{1}, 0);
+    if (is_marked_[place] == 0) marked_.push_back(place);
+    is_marked_[place] = 1;
   }
 }
 
-void DrawSlots::make_room(std::size_t slots) {
-  if (slots <= room_) return;
-  room_ = std::min(most_slots_, slots + slots / 2);
-  indices_.resize(first_slot_ + room_ * slot_indices_);
-  slot_ranges_.resize(room_ * ranges_per_slot_);
-  range_counts_.resize(room_, 0);
-  is_marked_.resize(std::max(is_marked_.size(), room_), 0);
-  ranges_.reserve(slot_ranges_.size());
-  range_nodes_.reserve(slot_ranges_.size());
-  changed_.reserve(room_);
-  marked_.reserve(room_);
-}
-
-void DrawSlots::add_range(std::uint32_t slot, const DrawRange& range) {
-  if (range.index_count == 0) return;
-  slot_ranges_[slot * std::size_t{ranges_per_slot_} + range_counts_[slot]++] = range;
-}
-
-// Returns where it ends.
-std::uint32_t DrawSlots::write_border(std::uint32_t node, std::uint32_t mask,
-                                      std::size_t first_triangle, std::size_t end_triangle,
-                                      std::uint32_t to) {
-  const PatchTreeData& data = tree_->data();
-  const std::uint32_t first_vertex = data.offsets[node].vertex;
-  for (std::size_t t = first_triangle; t < end_triangle; ++t) {
-    std::uint32_t drawn[3];
-    for (std::size_t k = 0; k < 3; ++k)
-      drawn[k] = drawn_vertex(data, node, first_vertex + data.corners[3 * t + k], mask);
-    if (is_collapsed(data, drawn)) continue;
-    for (const std::uint32_t v : drawn) indices_[to++] = v;
-  }
-  return to;
-}
-
-void DrawSlots::write(std::uint32_t slot, const PatchDraw& draw) {
+// The border triangles of a draw that is switched.
+void DrawSlots::write(const PatchDraw& draw) {
   const PatchTreeData& data = tree_->data();
   const PatchOffsets& at = data.offsets[draw.node];
-  range_counts_[slot] = 0;
-  DrawRange range;
-  const std::uint32_t finest = tree_->finest_level();
-  if (finest > 0)
-    range.level = static_cast<float>(tree_->level_of(draw.node)) / static_cast<float>(finest);
-  std::uint32_t to = first_slot_ + slot * slot_indices_;
-  std::uint32_t triangle = at.triangle;
+  std::size_t triangle = at.triangle;
   for (std::uint32_t r = at.range; r < data.offsets[draw.node + 1].range; ++r) {
-    const PatchRange& part = data.ranges[r];
-    range.material = part.material;
-    range.first_index = 3 * triangle;
-    range.index_count = 3 * (draw.mask == 0 ? part.triangle_count : part.constant_triangles);
-    add_range(slot, range);
-    if (draw.mask != 0) {
-      const std::uint32_t end =
-          write_border(draw.node, draw.mask, triangle + std::size_t{part.constant_triangles},
-                       triangle + std::size_t{part.triangle_count}, to);
-      range.first_index = to;
-      range.index_count = end - to;
-      add_range(slot, range);
-      to = end;
+    const PatchRange& range = data.ranges[r];
+    Slot& slot = slots_[r];
+    std::uint32_t to = slot.first_index;
+    for (std::size_t t = triangle + range.constant_triangles; t < triangle + range.triangle_count;
+         ++t) {
+      std::uint32_t drawn[3];
+      for (std::size_t k = 0; k < 3; ++k)
+        drawn[k] = drawn_vertex(data, draw.node, at.vertex + data.corners[3 * t + k], draw.mask);
+      if (is_collapsed(data, drawn)) continue;
+      for (const std::uint32_t v : drawn) indices_[to++] = v;
     }
-    triangle += part.triangle_count;
+    slot.index_count = to - slot.first_index;
+    if (slot.index_count > 0) changed_.push_back({slot.first_index, slot.index_count});
+    triangle += range.triangle_count;
   }
+  written_[draw.node] = draw.mask;
 }
 
-void DrawSlots::gather_ranges(std::span<const PatchDraw> draws) {
+void DrawSlots::add_range(const DrawRange& range, std::uint32_t node) {
+  if (range.index_count == 0) return;
+  ranges_.push_back(range);
+  range_nodes_.push_back(node);
+}
+
+void DrawSlots::gather_ranges(std::span<const PatchDraw> draws, bool switches) {
+  const PatchTreeData& data = tree_->data();
+  const float finest = static_cast<float>(std::max(1u, tree_->finest_level()));
   ranges_.clear();
   range_nodes_.clear();
-  for (std::size_t slot = 0; slot < draws.size(); ++slot) {
-    const DrawRange* first = slot_ranges_.data() + slot * ranges_per_slot_;
-    ranges_.insert(ranges_.end(), first, first + range_counts_[slot]);
-    range_nodes_.insert(range_nodes_.end(), range_counts_[slot], draws[slot].node);
+  for (const PatchDraw& draw : draws) {
+    const bool is_switched = switches && draw.mask != 0;
+    DrawRange range;
+    if (tree_->finest_level() > 0) range.level = static_cast<float>(level_of_[draw.node]) / finest;
+    std::uint32_t triangle = data.offsets[draw.node].triangle;
+    for (std::uint32_t r = data.offsets[draw.node].range; r < data.offsets[draw.node + 1].range;
+         ++r) {
+      const PatchRange& part = data.ranges[r];
+      range.material = part.material;
+      range.first_index = 3 * triangle;
+      range.index_count = 3 * (is_switched ? part.constant_triangles : part.triangle_count);
+      add_range(range, draw.node);
+      if (is_switched) {
+        range.first_index = slots_[r].first_index;
+        range.index_count = slots_[r].index_count;
+        add_range(range, draw.node);
+      }
+      triangle += part.triangle_count;
+    }
   }
 }
 
 DrawList DrawSlots::list(std::span<const PatchDraw> draws, bool switches) {
-  make_room(draws.size());
-  if (all_are_new_) {
-    marked_.clear();
-    for (std::uint32_t slot = 0; slot < draws.size(); ++slot) marked_.push_back(slot);
-  }
-  std::sort(marked_.begin(), marked_.end());
+  // What is marked beyond the draws is gone.
   changed_.clear();
-  for (const std::uint32_t slot : marked_) {
-    is_marked_[slot] = 0;
-    if (slot >= draws.size()) continue;
-    const PatchDraw draw{draws[slot].node, switches ? draws[slot].mask : 0};
-    write(slot, draw);
-    const std::uint32_t first = first_slot_ + slot * slot_indices_;
-    if (draw.mask == 0) continue;
-    if (!changed_.empty() && changed_.back().first + changed_.back().count == first)
-      changed_.back().count += slot_indices_;
-    else
-      changed_.push_back({first, slot_indices_});
+  const auto write_new = [&](const PatchDraw& draw) {
+    if (draw.mask != 0 && written_[draw.node] != draw.mask) write(draw);
+  };
+  const bool is_first = ranges_.empty();
+  if (is_first)
+    for (const PatchDraw& draw : draws) write_new(draw);
+  for (const std::uint32_t place : marked_) {
+    is_marked_[place] = 0;
+    if (place < draws.size()) write_new(draws[place]);
   }
-  if (!marked_.empty() || all_are_new_ || draws.size() != listed_) gather_ranges(draws);
-  listed_ = draws.size();
-  if (all_are_new_) std::fill(is_marked_.begin(), is_marked_.end(), std::uint8_t{0});
-  all_are_new_ = false;
+  if (is_first || !marked_.empty() || draws.size() != listed_ || switches != switched_)
+    gather_ranges(draws, switches);
   marked_.clear();
+  listed_ = draws.size();
+  switched_ = switches;
 
   const TriangleMesh& vertices = tree_->data().vertices;
   DrawList list;
@@ -154,11 +123,11 @@ DrawList DrawSlots::list(std::span<const PatchDraw> draws, bool switches) {
 }
 
 std::size_t DrawSlots::bytes() const {
-  return (indices_.size() + range_counts_.capacity() + marked_.capacity() +
+  return (indices_.capacity() + written_.capacity() + marked_.capacity() +
           range_nodes_.capacity()) *
              sizeof(std::uint32_t) +
-         (slot_ranges_.size() + ranges_.capacity()) * sizeof(DrawRange) + is_marked_.capacity() +
-         changed_.capacity() * sizeof(ElementRange);
+         slots_.capacity() * sizeof(Slot) + level_of_.capacity() + is_marked_.capacity() +
+         ranges_.capacity() * sizeof(DrawRange) + changed_.capacity() * sizeof(ElementRange);
 }
 
 }  // namespace varifold

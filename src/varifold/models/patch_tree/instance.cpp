@@ -35,10 +35,7 @@ PatchFrontResult PatchTreeInstance::adapt(const RefineCriteria& criteria,
   return result;
 }
 
-void PatchTreeInstance::set_switches(bool switches) {
-  if (switches != switches_) slots_.mark_all();
-  switches_ = switches;
-}
+void PatchTreeInstance::set_switches(bool switches) { switches_ = switches; }
 
 std::uint32_t PatchTreeInstance::collapsed_triangles() const {
   std::uint32_t count = 0;

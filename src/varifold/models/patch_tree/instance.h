@@ -61,8 +61,8 @@ class PatchTreeInstance {
   void set_switches(bool switches);
 
   /// Indices of vertices of all patches (draw_slots.h); what changed since the last call of this
-  /// function. Valid until the next. O(changed patches) and a copy of ranges; allocates nothing
-  /// once a front had as many patches.
+  /// function. Valid until the next. O(patches of the front), and O(border triangles) of those that
+  /// changed; allocates nothing once a front had as many patches.
   [[nodiscard]] DrawList draw_list() { return slots_.list(front_.draws().draws(), switches_); }
   /// The node that each range of the last list is part of.
   [[nodiscard]] std::span<const std::uint32_t> nodes_of_ranges() const {
