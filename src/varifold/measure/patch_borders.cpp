@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <tuple>
 #include <utility>
 
 namespace varifold::check {
@@ -14,7 +15,9 @@ namespace {
 /// A point as a patch has it.
 struct BorderPoint {
   std::uint32_t point, node, vertex;
-  friend auto operator<=>(const BorderPoint&, const BorderPoint&) = default;
+  friend bool operator<(const BorderPoint& a, const BorderPoint& b) {
+    return std::tie(a.point, a.node, a.vertex) < std::tie(b.point, b.node, b.vertex);
+  }
 };
 
 class BorderChecker {

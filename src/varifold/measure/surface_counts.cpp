@@ -4,6 +4,7 @@
 #include <varifold/mesh/weld.h>
 #include <algorithm>
 #include <array>
+#include <tuple>
 
 namespace varifold::check {
 
@@ -13,7 +14,9 @@ namespace {
 struct HalfEdge {
   std::uint32_t low, high;
   bool is_forward;
-  friend auto operator<=>(const HalfEdge&, const HalfEdge&) = default;
+  friend bool operator<(const HalfEdge& a, const HalfEdge& b) {
+    return std::tie(a.low, a.high, a.is_forward) < std::tie(b.low, b.high, b.is_forward);
+  }
 };
 
 using Corners = std::array<std::uint32_t, 3>;
