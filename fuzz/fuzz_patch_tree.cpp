@@ -4,6 +4,7 @@
 #include <fuzz/fuzz_support.h>
 #include <varifold/base/random.h>
 #include <varifold/models/patch_tree/encoding.h>
+#include <varifold/models/patch_tree/extract.h>
 #include <varifold/models/patch_tree/instance.h>
 #include <memory>
 #include <utility>

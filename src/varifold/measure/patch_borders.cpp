@@ -111,13 +111,25 @@ DVec3 normal_of(const Vec3& a, const Vec3& b, const Vec3& c) {
   return glm::cross(DVec3(b) - DVec3(a), DVec3(c) - DVec3(a));
 }
 
+// The square of the longest edge: the rounding of a normal goes with it.
+double longest_square(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const auto square = [](const DVec3& v) { return glm::dot(v, v); };
+  return std::max(
+      {square(DVec3(b) - DVec3(a)), square(DVec3(c) - DVec3(b)), square(DVec3(a) - DVec3(c))});
+}
+
 // Triangles on a line, up to the rounding of their corners, have no side to turn to.
 bool has_area(const DVec3& normal, const Vec3& a, const Vec3& b, const Vec3& c) {
   constexpr double kRounding = 1e-6;
-  const auto square = [](const DVec3& v) { return glm::dot(v, v); };
-  const double longest = std::max(
-      {square(DVec3(b) - DVec3(a)), square(DVec3(c) - DVec3(b)), square(DVec3(a) - DVec3(c))});
-  return glm::length(normal) > kRounding * longest;
+  return glm::length(normal) > kRounding * longest_square(a, b, c);
+}
+
+// Whether a normal is in a cone that was made around normals of single precision.
+bool is_within(const NormalCone& cone, const Vec3& a, const Vec3& b, const Vec3& c) {
+  constexpr double kRounding = 1e-5, kRoundingOfNormals = 1e-6;
+  const DVec3 normal = normal_of(a, b, c);
+  const double least = (cone.cosine - kRounding) * glm::length(normal);
+  return glm::dot(normal, DVec3(cone.axis)) >= least - kRoundingOfNormals * longest_square(a, b, c);
 }
 
 bool is_turned(const PatchTreeData& data, const std::uint32_t* own,
@@ -193,11 +205,9 @@ void check_bounds_of_patches(const PatchTree& tree, PlaceFaults& faults) {
       is_outside |= glm::length(DVec3(at[v]) - DVec3(bounds.ball.center)) >
                     bounds.ball.radius * (1 + kRounding);
     for (std::size_t t = data.offsets[node].triangle; t < data.offsets[node + 1].triangle; ++t) {
-      const DVec3 normal =
-          normal_of(at[first + data.corners[3 * t]], at[first + data.corners[3 * t + 1]],
-                    at[first + data.corners[3 * t + 2]]);
-      is_turned_away |= glm::dot(normal, DVec3(bounds.cone.axis)) <
-                        (bounds.cone.cosine - kRounding) * glm::length(normal);
+      const std::uint16_t* const c = &data.corners[3 * t];
+      is_turned_away |=
+          !is_within(bounds.cone, at[first + c[0]], at[first + c[1]], at[first + c[2]]);
     }
     if (is_outside) faults.add("outside_ball", node);
     if (is_turned_away) faults.add("outside_cone", node);
