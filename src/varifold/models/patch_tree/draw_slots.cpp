@@ -8,21 +8,30 @@ namespace varifold {
 
 DrawSlots::DrawSlots(std::shared_ptr<const PatchTree> tree) : tree_(std::move(tree)) {
   const PatchTreeData& data = tree_->data();
-  indices_.reserve(data.corners.size());
   std::uint32_t most_border = 0;
   for (std::uint32_t node = 0; node < tree_->node_count(); ++node) {
     const PatchOffsets& at = data.offsets[node];
     const PatchOffsets& end = data.offsets[node + 1];
-    for (std::size_t i = 3 * std::size_t{at.triangle}; i < 3 * std::size_t{end.triangle}; ++i)
-      indices_.push_back(at.vertex + data.corners[i]);
     std::uint32_t border = 0;
     for (std::uint32_t r = at.range; r < end.range; ++r)
       border += data.ranges[r].triangle_count - data.ranges[r].constant_triangles;
     most_border = std::max(most_border, border);
     ranges_per_slot_ = std::max(ranges_per_slot_, 2 * (end.range - at.range));
   }
-  first_slot_ = static_cast<std::uint32_t>(indices_.size());
+  first_slot_ = static_cast<std::uint32_t>(data.corners.size());
   slot_indices_ = 3 * most_border;
+  // No front has more patches than there are leaves. What is not used costs addresses alone, and
+  // the triangles of all patches need not move when a front grows.
+  const PatchTopology& t = data.topology;
+  most_slots_ = t.level_count() == 0 ? 0 : t.node_count() - t.first_of_level[t.level_count() - 1];
+  indices_.reserve(first_slot_ + most_slots_ * slot_indices_);
+  slot_ranges_.reserve(most_slots_ * ranges_per_slot_);
+  for (std::uint32_t node = 0; node < tree_->node_count(); ++node) {
+    const PatchOffsets& at = data.offsets[node];
+    for (std::size_t i = 3 * std::size_t{at.triangle};
+         i < 3 * std::size_t{data.offsets[node + 1].triangle}; ++i)
+      indices_.push_back(at.vertex + data.corners[i]);
+  }
 }
 
 void DrawSlots::mark(std::span<const std::uint32_t> slots) {
@@ -35,7 +44,7 @@ void DrawSlots::mark(std::span<const std::uint32_t> slots) {
 
 void DrawSlots::make_room(std::size_t slots) {
   if (slots <= room_) return;
-  room_ = slots + slots / 2;
+  room_ = std::min(most_slots_, slots + slots / 2);
   indices_.resize(first_slot_ + room_ * slot_indices_);
   slot_ranges_.resize(room_ * ranges_per_slot_);
   range_counts_.resize(room_, 0);
@@ -126,7 +135,8 @@ DrawList DrawSlots::list(std::span<const PatchDraw> draws, bool switches) {
     else
       changed_.push_back({first, slot_indices_});
   }
-  gather_ranges(draws);
+  if (!marked_.empty() || all_are_new_ || draws.size() != listed_) gather_ranges(draws);
+  listed_ = draws.size();
   if (all_are_new_) std::fill(is_marked_.begin(), is_marked_.end(), std::uint8_t{0});
   all_are_new_ = false;
   marked_.clear();
@@ -144,11 +154,11 @@ DrawList DrawSlots::list(std::span<const PatchDraw> draws, bool switches) {
 }
 
 std::size_t DrawSlots::bytes() const {
-  return (indices_.capacity() + range_counts_.capacity() + marked_.capacity() +
+  return (indices_.size() + range_counts_.capacity() + marked_.capacity() +
           range_nodes_.capacity()) *
              sizeof(std::uint32_t) +
-         (slot_ranges_.capacity() + ranges_.capacity()) * sizeof(DrawRange) +
-         is_marked_.capacity() + changed_.capacity() * sizeof(ElementRange);
+         (slot_ranges_.size() + ranges_.capacity()) * sizeof(DrawRange) + is_marked_.capacity() +
+         changed_.capacity() * sizeof(ElementRange);
 }
 
 }  // namespace varifold

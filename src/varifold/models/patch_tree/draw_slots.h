@@ -36,6 +36,7 @@ class DrawSlots {
 
   /// The node that each range of the last list is part of.
   [[nodiscard]] std::span<const std::uint32_t> nodes_of_ranges() const { return range_nodes_; }
+  /// What is in use.
   [[nodiscard]] std::size_t bytes() const;
 
  private:
@@ -51,12 +52,14 @@ class DrawSlots {
   std::uint32_t first_slot_ = 0;       // index where the slots begin
   std::uint32_t slot_indices_ = 0;     // of a slot
   std::uint32_t ranges_per_slot_ = 0;  // at most
+  std::size_t most_slots_ = 0;         // that any front needs
   std::size_t room_ = 0;               // slots that there is room for
   std::vector<DrawRange> slot_ranges_;
   std::vector<std::uint32_t> range_counts_;  // per slot
   std::vector<std::uint8_t> is_marked_;      // per slot
   std::vector<std::uint32_t> marked_;
   bool all_are_new_ = true;
+  std::size_t listed_ = 0;  // draws of the last list
   std::vector<DrawRange> ranges_;
   std::vector<std::uint32_t> range_nodes_;
   std::vector<ElementRange> changed_;
