@@ -67,7 +67,7 @@ void Renderer::Impl::set_patch_uniforms(const gl::Program& program, PatchBuffers
   gl::set_uniform(program, "has_normals", static_cast<int>(buffers.has(PatchBuffers::kNormals)));
   gl::set_uniform(program, "switch_borders", static_cast<int>(patch_style.switch_borders));
   gl::set_uniform(program, "morph_eye", morph.eye);
-  gl::set_uniform(program, "morph_near", morph.near_distance);
+  gl::set_uniform(program, "morph_near", std::max(morph.near_distance, 1e-30f));
   gl::set_uniform(program, "morph_scale", morph.scale);
   gl::set_uniform(program, "morph_tolerance", std::max(morph.tolerance, 1e-30f));
   gl::set_uniform(program, "morph_band", morph.band);

@@ -10,6 +10,7 @@
 #include <varifold/view/camera.h>
 #include <varifold/view/patch_draws.h>
 #include <algorithm>
+#include <cmath>
 
 namespace varifold {
 
@@ -34,10 +35,17 @@ struct PatchMorphRange {
   return {scale.eye(), scale.near_distance(), scale.focal_pixels(), tolerance};
 }
 
+/// For errors that are roots of mean squares, and priorities that are mean squares by the squared
+/// distance.
+[[nodiscard]] inline PatchMorphRange mean_squared_morph_range(const Vec3& eye, float tolerance) {
+  return {eye, 0, 1, std::sqrt(tolerance)};
+}
+
 /// 1: at the target; 0: at its own place. O(1).
 [[nodiscard]] inline float morph_part(const PatchMorphRange& range, const Vec3& position,
                                       float error) {
-  const float distance = std::max(glm::length(position - range.eye), range.near_distance);
+  const float least = std::max(range.near_distance, 1e-30f);
+  const float distance = std::max(glm::length(position - range.eye), least);
   const float seen = error * range.scale / distance;
   const float part = (range.band * range.tolerance - seen) / ((range.band - 1) * range.tolerance);
   return std::min(std::max(part, 0.0f), 1.0f);

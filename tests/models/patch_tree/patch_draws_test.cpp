@@ -246,11 +246,16 @@ double volume_of(const Surface& surface) {
 
 // The last node that a tolerance leaves whole is split by one that is a hair smaller. What is drawn
 // then has its vertices where there were vertices before, and encloses the same volume.
-TEST(PatchMorph, SplittingANodeMovesNothing) {
+class SplittingANode : public ::testing::TestWithParam<PatchMeasure> {};
+INSTANTIATE_TEST_SUITE_P(PatchMorph, SplittingANode,
+                         ::testing::Values(PatchMeasure::kPixels, PatchMeasure::kMeanSquared));
+
+TEST_P(SplittingANode, MovesNothing) {
   Random random(13);
+  const bool squares = GetParam() == PatchMeasure::kMeanSquared;
   const TreePointer tree = planet_tree(30000, 64);
   PatchFront front(tree);
-  PatchDraws draws(tables_of(tree));
+  PatchDraws draws(std::make_shared<const PatchDrawTables>(tree, GetParam()));
   const float precision = 4e-6f;
   std::uint32_t splits = 0, plain_jumps = 0;
   for (int i = 0; i < 60; ++i) {
@@ -258,14 +263,17 @@ TEST(PatchMorph, SplittingANodeMovesNothing) {
     criteria.view.emplace(random_view(Box{Vec3(-1), Vec3(1)}, random));
     criteria.view->outside_weight = criteria.view->back_weight = 1;
     PatchFrontOptions options;
-    options.limits.tolerance = static_cast<float>(std::pow(10, 1.5 * random.uniform()));
+    options.measure = GetParam();
+    const double power = squares ? -7 + 3 * random.uniform() : 1.5 * random.uniform();
+    options.limits.tolerance = static_cast<float>(std::pow(10, power));
     front.adapt(criteria, options);
     float greatest = 0;
     for (const PatchDraw& draw : front.draws().draws())
       if (!tree->topology().is_leaf(draw.node))
         greatest = std::max(greatest, front.nodes().priority(draw.node));
     if (greatest == 0) continue;
-    PatchMorphRange range = pixel_morph_range(criteria.view->scale, greatest);
+    PatchMorphRange range = squares ? mean_squared_morph_range(criteria.view->eye, greatest)
+                                    : pixel_morph_range(criteria.view->scale, greatest);
     if (i % 2 == 0) range.band = 3;
     options.limits.tolerance = greatest;
     front.adapt(criteria, options);
