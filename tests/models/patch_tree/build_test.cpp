@@ -129,6 +129,14 @@ TEST(PatchTreeBuild, BoundsNestAndErrorsSaturate) {
   }
 }
 
+TEST(PatchTreeBuild, KeepsAMaterialThatIsNotTheFirst) {
+  TriangleMesh mesh = test::grid(8, 8);
+  mesh.materials.resize(3);
+  mesh.ranges = {{2, 0, mesh.triangle_count()}};
+  const PatchTree tree = build(mesh, 16).tree;
+  for (const PatchRange& range : tree.data().ranges) EXPECT_EQ(range.material, 2u);
+}
+
 TEST(PatchTreeBuild, RefusesWhatIsNoMesh) {
   TriangleMesh mesh = test::tetrahedron();
   mesh.indices[4] = 99;

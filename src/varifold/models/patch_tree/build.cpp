@@ -81,7 +81,9 @@ void Builder::make_surface() {
   options.with_wedges = needs_wedges(mesh_);
   options.threads = options_.threads;
   surface_ = build_surface(mesh_, options, result_.report.faults);
-  if (mesh_.ranges.size() > 1) material_of_ = triangle_materials(mesh_);
+  const bool has_materials =
+      mesh_.ranges.size() > 1 || (mesh_.ranges.size() == 1 && mesh_.ranges[0].material != 0);
+  if (has_materials) material_of_ = triangle_materials(mesh_);
   if (!options.with_wedges) return;
   attributes_ = AttributeField(mesh_, surface_.wedge.vertex_of, options_.attributes);
   if (!attributes_.empty()) add_faces_to_attributes(surface_, attributes_, options_.threads);
