@@ -79,13 +79,17 @@ TEST(Patches, StayBelowTheCap) {
     }
 }
 
-TEST(Patches, AreAsManyAsAsked) {
+std::vector<TestSurface> manifold_surfaces() {
   std::vector<TestSurface> surfaces;
   for (const NamedMesh& named : group_closed())
     surfaces.push_back(make_surface(named.name, named.mesh));
   for (const NamedMesh& named : group_open())
     surfaces.push_back(make_surface(named.name, named.mesh));
-  for (const TestSurface& surface : surfaces)
+  return surfaces;
+}
+
+TEST(Patches, AreAsManyAsAsked) {
+  for (const TestSurface& surface : manifold_surfaces())
     for (const std::uint32_t size : {1u, 2u, 16u, 100u, 1000u}) {
       SCOPED_TRACE(surface.name + " " + std::to_string(size));
       const Partition partition = make_patches(surface.view(), {.triangles_per_patch = size});
@@ -99,12 +103,7 @@ TEST(Patches, AreAsManyAsAsked) {
 }
 
 TEST(Patches, OfManifoldsAreDiscs) {
-  std::vector<TestSurface> surfaces;
-  for (const NamedMesh& named : group_closed())
-    surfaces.push_back(make_surface(named.name, named.mesh));
-  for (const NamedMesh& named : group_open())
-    surfaces.push_back(make_surface(named.name, named.mesh));
-  for (const TestSurface& surface : surfaces)
+  for (const TestSurface& surface : manifold_surfaces())
     for (const std::uint32_t size : {2u, 16u, 100u}) {
       SCOPED_TRACE(surface.name + " " + std::to_string(size));
       const Partition partition = make_patches(surface.view(), {.triangles_per_patch = size});

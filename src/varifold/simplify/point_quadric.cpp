@@ -12,8 +12,8 @@ namespace {
 constexpr float kTiny = 1e-30f;
 
 // Planes through the feature edges, at right angles to the faces there. Borders between regions
-// are no part of the shape: they may wander over the surface (held, they cost a patch tree up to
-// 80 % in error).
+// are no part of the shape: they may wander over the surface (held, rough ones cost a patch tree up
+// to 80 % in error).
 void add_constraints(WorkingSurface& surface, std::uint32_t point, const QuadricOptions& options,
                      Quadric& quadric) {
   const auto ring = surface.ring_span(point);

@@ -1,6 +1,7 @@
 #include <varifold/models/patch_tree/front_priorities.h>
 
 #include <varifold/models/patch_tree/front_bits.h>
+#include <varifold/view/usable_view.h>
 #include <cmath>
 #include <limits>
 
@@ -13,17 +14,6 @@ bool is_plain(const ViewCriterion& view) {
   const auto is_switch = [](float weight) { return weight == 0 || weight == 1; };
   return is_switch(view.outside_weight) && is_switch(view.back_weight) &&
          view.silhouette_weight == 1 && !view.light;
-}
-
-// Cameras that see nothing and numbers that are none ask for nothing.
-bool is_sound(const ViewCriterion& view) {
-  const auto is_finite = [](const Vec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-  };
-  for (const Plane& plane : view.frustum.planes)
-    if (!is_finite(plane.normal) || !std::isfinite(plane.offset)) return false;
-  const float focal = view.scale.focal_pixels();
-  return is_finite(view.eye) && std::isfinite(focal) && focal > 0;
 }
 
 front_lanes::Numbers numbers_of(const ViewCriterion& view) {
@@ -54,7 +44,7 @@ float mean_squared_priority(const ViewCriterion& view, const PatchBounds& bounds
 bool FrontPriorities::set(const RefineCriteria& criteria, PatchMeasure measure) {
   const bool has_places =
       criteria.sphere || criteria.plane || !criteria.boxes.empty() || criteria.predicate != nullptr;
-  const bool sees = criteria.view && is_sound(*criteria.view);
+  const bool sees = criteria.view && is_usable(*criteria.view);
   const bool plain = sees && !has_places && is_plain(*criteria.view);
   std::uint8_t parts = measure == PatchMeasure::kMeanSquared ? front_lanes::kMeanSquares : 0;
   front_lanes::Numbers numbers;

@@ -2,6 +2,7 @@
 
 #include <varifold/models/vdpm/region_batch.h>
 #include <varifold/models/vdpm/step_regions.h>
+#include <varifold/view/usable_view.h>
 #include <algorithm>
 #include <cmath>
 
@@ -14,17 +15,6 @@ bool is_graded(const ViewCriterion& view) {
   const auto is_switch = [](float weight) { return weight == 0 || weight == 1; };
   return !is_switch(view.outside_weight) || !is_switch(view.back_weight) ||
          view.silhouette_weight != 1 || view.light.has_value();
-}
-
-// Whether a view can be asked at all: cameras that see nothing, or numbers that are none, cannot.
-bool is_sound(const ViewCriterion& view) {
-  const auto is_finite = [](const Vec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-  };
-  for (const Plane& plane : view.frustum.planes)
-    if (!is_finite(plane.normal) || !std::isfinite(plane.offset)) return false;
-  const float focal = view.scale.focal_pixels();
-  return is_finite(view.eye) && std::isfinite(focal) && focal > 0;
 }
 
 bool same_place(const std::optional<Sphere>& a, const std::optional<Sphere>& b) {
@@ -81,7 +71,7 @@ void FrontQuestion::set(const RefineCriteria& criteria, float tolerance, float m
   boxes_.assign(criteria.boxes.begin(), criteria.boxes.end());
   criteria_ = criteria;
   criteria_.boxes = boxes_;
-  if (criteria_.view && !is_sound(*criteria_.view)) criteria_.view.reset();
+  if (criteria_.view && !is_usable(*criteria_.view)) criteria_.view.reset();
   tolerance_ = tolerance;
   place_error_ = tolerance < RefineCriteria::kFullDetail
                      ? -1
@@ -97,7 +87,7 @@ void FrontQuestion::set(const RefineCriteria& criteria, float tolerance, float m
 bool FrontQuestion::differs_in_kind(const RefineCriteria& criteria, float tolerance) const {
   if (std::max(tolerance, tolerance_) >= RefineCriteria::kFullDetail && tolerance != tolerance_)
     return true;
-  const bool sees = criteria.view && is_sound(*criteria.view);
+  const bool sees = criteria.view && is_usable(*criteria.view);
   if (is_graded_ || sees != criteria_.view.has_value()) return true;
   if (sees) {
     const ViewCriterion &a = *criteria.view, &b = *criteria_.view;
