@@ -2,6 +2,7 @@
 #include <varifold/simplify/classify.h>
 
 #include <algorithm>
+#include <array>
 
 namespace varifold {
 
@@ -11,16 +12,26 @@ namespace {
 constexpr std::uint32_t kMaxWedges = 255;
 constexpr std::size_t kMaxIrregularRing = 1024;
 
-bool differ_across(const WorkingSurface& surface, std::uint32_t face_a, std::uint32_t face_b,
-                   std::uint32_t point, std::uint32_t neighbor) {
+using Two = std::array<std::uint32_t, 2>;
+
+bool differ_across(const WorkingSurface& surface, const Two& ends, const Two& faces) {
   const WedgeTables& wedge = surface.wedge;
-  if (!wedge.material_of.empty() && wedge.material_of[face_a] != wedge.material_of[face_b])
+  if (!wedge.material_of.empty() && wedge.material_of[faces[0]] != wedge.material_of[faces[1]])
     return true;
-  for (const std::uint32_t end : {point, neighbor})
-    if (wedge.group_of[wedge.at_corner(face_a, end)] !=
-        wedge.group_of[wedge.at_corner(face_b, end)])
+  for (const std::uint32_t end : ends)
+    if (wedge.group_of[wedge.at_corner(faces[0], end)] !=
+        wedge.group_of[wedge.at_corner(faces[1], end)])
       return true;
   return false;
+}
+
+// How the two faces of an edge differ, if it has two.
+void add_differences(const WorkingSurface& surface, const Two& ends, const Two& faces,
+                     EdgeUse& use) {
+  if (use.leaving != 1 || use.arriving != 1) return;
+  if (!surface.region_of.empty())
+    use.region = surface.region_of[faces[0]] != surface.region_of[faces[1]];
+  if (surface.wedge.has_seams()) use.seam = differ_across(surface, ends, faces);
 }
 
 struct FeatureEdges {
@@ -37,6 +48,11 @@ struct FeatureEdges {
 FeatureEdges find_features(WorkingSurface& surface, std::uint32_t point) {
   FeatureEdges features;
   const auto ring = surface.ring_span(point);
+  if (!(surface.points[point].flags & PointState::kIrregular)) {
+    for (std::size_t i = 0; i < ring.size(); ++i)
+      if (const EdgeUse use = edge_use_at(surface, point, i); use.is_feature()) features.add(use);
+    return features;
+  }
   std::vector<std::uint32_t> seen;
   for (const RingEntry& entry : ring) {
     if (std::find(seen.begin(), seen.end(), entry.neighbor) != seen.end()) continue;
@@ -129,11 +145,22 @@ EdgeUse edge_use(WorkingSurface& surface, std::uint32_t point, std::uint32_t nei
       arriving_face = ring[i].face;
     }
   }
-  if (use.leaving != 1 || use.arriving != 1) return use;
-  if (!surface.region_of.empty())
-    use.region = surface.region_of[leaving_face] != surface.region_of[arriving_face];
-  if (surface.wedge.has_seams())
-    use.seam = differ_across(surface, leaving_face, arriving_face, point, neighbor);
+  add_differences(surface, {point, neighbor}, {leaving_face, arriving_face}, use);
+  return use;
+}
+
+// In a single fan each neighbour stands once.
+EdgeUse edge_use_at(WorkingSurface& surface, std::uint32_t point, std::size_t place) {
+  const auto ring = surface.ring_span(point);
+  const std::uint32_t neighbor = ring[place].neighbor;
+  if (surface.points[point].flags & PointState::kIrregular)
+    return edge_use(surface, point, neighbor);
+  const std::uint32_t leaving_face = ring[place].face;
+  const std::uint32_t arriving_face = ring[place == 0 ? ring.size() - 1 : place - 1].face;
+  EdgeUse use;
+  use.leaving = leaving_face != kNone;
+  use.arriving = arriving_face != kNone;
+  add_differences(surface, {point, neighbor}, {leaving_face, arriving_face}, use);
   return use;
 }
 

@@ -20,6 +20,8 @@ struct EdgeUse {
 /// O(ring).
 [[nodiscard]] EdgeUse edge_use(WorkingSurface& surface, std::uint32_t point,
                                std::uint32_t neighbor);
+/// Of the neighbour in that place of the ring. O(1) but for points with several fans.
+[[nodiscard]] EdgeUse edge_use_at(WorkingSurface& surface, std::uint32_t point, std::size_t place);
 
 /// Calls visit(wedge of point, wedge of onto) for every side of the edge between two neighbours,
 /// once a side.

@@ -70,7 +70,7 @@ float Collapser::find_candidate(Cell& cell, std::uint32_t point) {
   const RingEntry* ring = surface_.ring(point);
   for (std::size_t i = 0; i < offsets.size(); ++i) {
     const std::uint32_t onto = ring[i].neighbor;
-    if (along == CollapseAlong::kFeatureEdge && !edge_use(surface_, point, onto).is_feature())
+    if (along == CollapseAlong::kFeatureEdge && !edge_use_at(surface_, point, i).is_feature())
       continue;
     float cost = errors[i];
     if (attributes_) cost += attribute_cost(point, onto, offsets[i]);
@@ -108,7 +108,7 @@ void Collapser::drain(Cell& cell, std::uint32_t limit, bool confined) {
     if (point == kNone) return;
     PointState& state = surface_.points[point];
     if (state.flags & (PointState::kDead | PointState::kBlocked)) continue;
-    if (confined && ((guard && guard->watches(point)) || leaves_cell(cell, point))) {
+    if (confined && (is_watched(point) || leaves_cell(cell, point))) {
       cell.deferred.push_back(point);
       continue;
     }
@@ -166,7 +166,7 @@ void Collapser::try_others(Cell& cell, std::uint32_t point) {
 Refusal Collapser::test(Cell& cell, std::uint32_t from, std::uint32_t onto) {
   const Refusal refusal = test_collapse(surface_, from, onto, options_.legality);
   if (refusal != Refusal::kLegal) return refusal;
-  if (guard && (guard->watches(from) || guard->watches(onto)) && !guard->allows(from, onto))
+  if ((is_watched(from) || is_watched(onto)) && !guard->allows(from, onto))
     return Refusal::kTopology;
   if (!attributes_ && !surface_.wedge.has_seams()) return refusal;
   RingMerger merger(surface_, cell.scratch);
@@ -184,7 +184,7 @@ void Collapser::collapse(Cell& cell, std::uint32_t from, std::uint32_t onto) {
     for (std::size_t i = 0; i < cell.scratch.moved_from.size(); ++i)
       attributes_->merge(cell.scratch.moved_from[i], cell.scratch.moved_onto[i], d);
   state.flags |= PointState::kDead;
-  if (guard && guard->watches(from)) guard->collapsed(from, onto);
+  if (is_watched(from)) guard->collapsed(from, onto);
   target.error = std::max(target.error, state.error + state.step);
   for (const RingEntry& entry : cell.scratch.ring) touch(cell, entry.neighbor);
 

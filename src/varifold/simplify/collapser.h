@@ -46,6 +46,7 @@ class CollapseGuard {
  public:
   virtual ~CollapseGuard() = default;
   /// Whether the guard wants to know of collapses of this point: those are done by one thread.
+  /// Not asked of points without features.
   [[nodiscard]] virtual bool watches(std::uint32_t point) const = 0;
   /// Asked for a legal collapse of a watched point, or onto one.
   [[nodiscard]] virtual bool allows(std::uint32_t from, std::uint32_t onto) = 0;
@@ -86,6 +87,9 @@ class Collapser {
     float cost;
     std::uint32_t target;
   };
+  [[nodiscard]] bool is_watched(std::uint32_t point) const {
+    return guard && surface_.points[point].kind != VertexKind::kManifold && guard->watches(point);
+  }
   [[nodiscard]] bool leaves_cell(const Cell& cell, std::uint32_t point);
   [[nodiscard]] float attribute_cost(std::uint32_t point, std::uint32_t onto, const Vec3& d);
   /// Sets target and step of a point and returns the cost; target kNone where it may not go.

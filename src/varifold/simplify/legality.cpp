@@ -98,9 +98,10 @@ Refusal test_features(WorkingSurface& surface, std::uint32_t from, std::uint32_t
   if (kind == VertexKind::kManifold) return Refusal::kLegal;
   if (kCollapseAlong[static_cast<int>(kind)] == CollapseAlong::kNothing) return Refusal::kFixed;
   if (!edge_use(surface, from, onto).is_feature()) return Refusal::kFixed;
-  for (const RingEntry& entry : surface.ring_span(from)) {
-    if (entry.neighbor == onto || !edge_use(surface, from, entry.neighbor).is_feature()) continue;
-    const EdgeUse closing = edge_use(surface, onto, entry.neighbor);
+  const auto ring = surface.ring_span(from);
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    if (ring[i].neighbor == onto || !edge_use_at(surface, from, i).is_feature()) continue;
+    const EdgeUse closing = edge_use(surface, onto, ring[i].neighbor);
     if (closing.faces() > 0 && closing.is_feature()) return Refusal::kTopology;
   }
   return Refusal::kLegal;
@@ -127,8 +128,11 @@ bool turns_from_reference(const WorkingSurface& surface, std::uint32_t face, con
                           const LegalityOptions& options) {
   if (surface.reference_normal.empty()) return false;
   const Vec3 reference = unpack_normal(surface.reference_normal[face]);
-  const float length = std::sqrt(glm::dot(normal, normal) * glm::dot(reference, reference));
-  return length > 0 && glm::dot(normal, reference) < options.min_normal_cosine * length;
+  const float cosine = glm::dot(normal, reference);
+  const float square = glm::dot(normal, normal), reference_square = glm::dot(reference, reference);
+  if (!(square > 0 && reference_square > 0)) return false;
+  const float limit = options.min_normal_cosine * options.min_normal_cosine;
+  return cosine <= 0 || (cosine / square) * (cosine / reference_square) < limit;
 }
 
 }  // namespace

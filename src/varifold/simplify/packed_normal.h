@@ -2,7 +2,6 @@
 #pragma once
 
 #include <varifold/base/math.h>
-#include <cmath>
 #include <cstdint>
 
 namespace varifold {
@@ -11,7 +10,7 @@ namespace varifold {
 [[nodiscard]] inline std::uint32_t pack_normal(const Vec3& direction) {
   const Vec3 n = 511.0f * normalize_or_zero(direction);
   const auto axis = [](float x) {
-    return static_cast<std::uint32_t>(static_cast<std::int32_t>(std::floor(x + 0.5f)) + 512);
+    return static_cast<std::uint32_t>(static_cast<std::int32_t>(x + 512.5f));  // above 0: rounds
   };
   return axis(n.x) | axis(n.y) << 10 | axis(n.z) << 20;
 }

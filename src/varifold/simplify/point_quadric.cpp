@@ -20,13 +20,12 @@ void add_constraints(WorkingSurface& surface, std::uint32_t point, const Quadric
   const Vec3 origin = surface.points[point].position;
   for (std::size_t i = 0; i < ring.size(); ++i) {
     if (ring[i].face == kNone) continue;
-    const std::uint32_t ends[2] = {ring[i].neighbor,
-                                   ring[i + 1 == ring.size() ? 0 : i + 1].neighbor};
-    const Vec3 edges[2] = {surface.points[ends[0]].position - origin,
-                           surface.points[ends[1]].position - origin};
+    const std::size_t ends[2] = {i, i + 1 == ring.size() ? 0 : i + 1};
+    const Vec3 edges[2] = {surface.points[ring[ends[0]].neighbor].position - origin,
+                           surface.points[ring[ends[1]].neighbor].position - origin};
     const Vec3 normal = normalize_or_zero(glm::cross(edges[0], edges[1]));
     for (int k = 0; k < 2; ++k) {
-      const EdgeUse use = edge_use(surface, point, ends[k]);
+      const EdgeUse use = edge_use_at(surface, point, ends[k]);
       if (!use.is_feature() || (use.region && !use.seam)) continue;
       const float weight = use.seam ? options.seam_weight : options.border_weight;
       quadric.add_plane(normalize_or_zero(glm::cross(edges[k], normal)),

@@ -6,6 +6,7 @@
 #include <varifold/models/patch_tree/level_errors.h>
 #include <varifold/models/patch_tree/level_halving.h>
 #include <varifold/models/patch_tree/patch_errors.h>
+#include <varifold/partition/edge_links.h>
 #include <varifold/partition/patch_levels.h>
 #include <varifold/partition/patches.h>
 #include <varifold/simplify/input_fault.h>
@@ -121,9 +122,10 @@ bool Builder::cut_into_patches() {
   options.smooth = options_.smooth_borders;
   options.threads = options_.threads;
   options.progress = options_.progress;
-  Partition partition = make_patches(view, options);
+  const EdgeLinks links(view);
+  Partition partition = make_patches(view, links, options);
   if (partition.cancelled) return false;
-  levels_ = make_levels(view, partition, options_.threads);
+  levels_ = make_levels(view, links, partition, options_.threads);
   result_.report.non_disc_leaves = partition.non_discs;
   order_by_patches(partition.patch_of);
   return true;

@@ -123,22 +123,17 @@ void LevelHalving::restore(const LevelMesh& mesh, std::span<const CollapseLogEnt
       wedge.target[w] = kNone;
 }
 
-// Each where its point went at first, then on from there, in the order of their numbers.
+// From the last collapse to the first: where a point went on to is known before it came there.
 void LevelHalving::find_survivors(std::span<const CollapseLogEntry> log) {
   const WedgeTables& wedge = surface_.wedge;
-  std::iota(survivor_.begin(), survivor_.end(), 0u);
-  for (const CollapseLogEntry& entry : log) {
+  for (std::size_t i = log.size(); i-- > 0;) {
+    const auto [from, onto] = std::pair(log[i].from, log[i].onto);
     if (!wedge.has_seams()) {
-      survivor_[entry.from] = entry.onto;
+      survivor_[from] = survivor_[onto];
       continue;
     }
-    for (std::uint32_t w = wedge.first[entry.from]; w < wedge.first[entry.from + 1]; ++w)
-      survivor_[w] = wedge.target[w];
-  }
-  for (std::uint32_t w = 0; w < survivor_.size(); ++w) {
-    std::uint32_t end = survivor_[w];
-    while (survivor_[end] != end) end = survivor_[end];
-    for (std::uint32_t at = w; survivor_[at] != end;) at = std::exchange(survivor_[at], end);
+    for (std::uint32_t w = wedge.first[from]; w < wedge.first[from + 1]; ++w)
+      survivor_[w] = survivor_[wedge.target[w]];
   }
   went_.clear();
   std::size_t kept = 0;
