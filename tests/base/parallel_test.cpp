@@ -40,6 +40,20 @@ TEST(ParallelFor, OneThreadGoesInOrder) {
   EXPECT_EQ(order, (std::vector<std::size_t>{0, 3, 6, 9}));
 }
 
+TEST(ParallelBoth, RunsBothAndLoopsWithin) {
+  for (const int threads : {0, 1, 2, 3, 8}) {
+    std::vector<std::atomic<int>> visits(200);
+    const auto visit = [&](std::size_t first) {
+      parallel_for(threads, 100, 3, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) ++visits[first + i];
+      });
+    };
+    parallel_both(
+        threads, [&] { visit(0); }, [&] { visit(100); });
+    for (const auto& n : visits) ASSERT_EQ(n, 1);
+  }
+}
+
 TEST(HardwareThreads, AtLeastOne) { EXPECT_GE(hardware_threads(), 1); }
 
 }  // namespace

@@ -139,9 +139,16 @@ TEST(PatchNeighbors, AreThePatchesAtCommonPoints) {
   for (const TestSurface& surface : partition_surfaces()) {
     SCOPED_TRACE(surface.name);
     const Partition partition = make_patches(surface.view(), {.triangles_per_patch = 16});
+    std::vector<std::vector<std::uint32_t>> rows(partition.patch_count);
+    for (std::size_t h = 0; h < surface.corners.size(); ++h)
+      rows[partition.patch_of[h / 3]].push_back(surface.corners[h]);
+    std::vector<std::uint32_t> points, first{0};
+    for (const std::vector<std::uint32_t>& row : rows) {
+      points.insert(points.end(), row.begin(), row.end());
+      first.push_back(static_cast<std::uint32_t>(points.size()));
+    }
     const PatchNeighbors found =
-        patch_neighbors(surface.corners, static_cast<std::uint32_t>(surface.positions.size()),
-                        partition.patch_of, partition.patch_count);
+        patch_neighbors(points, first, static_cast<std::uint32_t>(surface.positions.size()));
     std::vector<std::set<std::uint32_t>> at_point(surface.positions.size());
     for (std::size_t h = 0; h < surface.corners.size(); ++h)
       at_point[surface.corners[h]].insert(partition.patch_of[h / 3]);

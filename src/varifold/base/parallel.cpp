@@ -43,15 +43,18 @@ void run_pieces(int threads, std::size_t count, const Piece& piece) {
   std::optional<tbb::global_control> raised;
   if (threads > hardware_threads())
     raised.emplace(tbb::global_control::max_allowed_parallelism, threads);
-  tbb::task_arena arena(threads);
-  arena.execute([&] {
+  const auto run = [&] {
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, count, 1),
         [&](const tbb::blocked_range<std::size_t>& range) {
           for (std::size_t p = range.begin(); p < range.end(); ++p) piece(p);
         },
         tbb::simple_partitioner());
-  });
+  };
+  // Within another loop the same arena serves both, so that whoever is done helps the other.
+  if (tbb::this_task_arena::max_concurrency() == threads) return run();
+  tbb::task_arena arena(threads);
+  arena.execute(run);
 #endif
 }
 
@@ -70,6 +73,12 @@ void parallel_for(int threads, std::size_t count, std::size_t grain,
   }
   run_pieces(threads, pieces,
              [&](std::size_t i) { body(i * grain, std::min(count, (i + 1) * grain)); });
+}
+
+void parallel_both(int threads, const std::function<void()>& first,
+                   const std::function<void()>& second) {
+  parallel_for(threads, 2, 1,
+               [&](std::size_t begin, std::size_t) { begin == 0 ? first() : second(); });
 }
 
 }  // namespace varifold

@@ -144,17 +144,18 @@ PatchLevels make_levels(const SurfaceView& surface, const EdgeLinks& links, Part
   return levels;
 }
 
-PatchNeighbors patch_neighbors(std::span<const std::uint32_t> corners, std::uint32_t point_count,
-                               std::span<const std::uint32_t> patch_of, std::uint32_t patch_count) {
+PatchNeighbors patch_neighbors(std::span<const std::uint32_t> points,
+                               std::span<const std::uint32_t> first, std::uint32_t point_count) {
+  const auto patch_count = static_cast<std::uint32_t>(first.size() - 1);
   // Find the points of several patches.
   std::vector<std::uint32_t> owner(point_count, kNone);
   std::vector<std::uint64_t> meetings;  // point, patch
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const std::uint32_t patch = patch_of[i / 3];
-    std::uint32_t& first = owner[corners[i]];
-    if (first == kNone) first = patch;
-    if (first != patch) meetings.push_back(std::uint64_t{corners[i]} << 32 | patch);
-  }
+  for (std::uint32_t patch = 0; patch < patch_count; ++patch)
+    for (const std::uint32_t point :
+         points.subspan(first[patch], first[patch + 1] - first[patch])) {
+      if (owner[point] == kNone) owner[point] = patch;
+      if (owner[point] != patch) meetings.push_back(std::uint64_t{point} << 32 | patch);
+    }
   std::sort(meetings.begin(), meetings.end());
   meetings.erase(std::unique(meetings.begin(), meetings.end()), meetings.end());
 

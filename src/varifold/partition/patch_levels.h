@@ -48,11 +48,11 @@ struct PatchNeighbors {
   }
 };
 
-/// `corners` are three points per triangle, each below `point_count`; `patch_of` is per triangle.
-/// O(n), and a sort of what meets at borders.
-[[nodiscard]] PatchNeighbors patch_neighbors(std::span<const std::uint32_t> corners,
-                                             std::uint32_t point_count,
-                                             std::span<const std::uint32_t> patch_of,
-                                             std::uint32_t patch_count);
+/// `points` are the points of the triangles of each patch in rows, from `first[patch]` on, in any
+/// order and as often as one likes, each below `point_count`. O(n), and a sort of what meets at
+/// borders.
+[[nodiscard]] PatchNeighbors patch_neighbors(std::span<const std::uint32_t> points,
+                                             std::span<const std::uint32_t> first,
+                                             std::uint32_t point_count);
 
 }  // namespace varifold

@@ -108,7 +108,7 @@ void Collapser::drain(Cell& cell, std::uint32_t limit, bool confined) {
     if (point == kNone) return;
     PointState& state = surface_.points[point];
     if (state.flags & (PointState::kDead | PointState::kBlocked)) continue;
-    if (confined && (is_watched(point) || leaves_cell(cell, point))) {
+    if (confined && leaves_cell(cell, point)) {
       cell.deferred.push_back(point);
       continue;
     }

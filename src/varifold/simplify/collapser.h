@@ -41,12 +41,14 @@ struct CollapserOptions {
   QuadricOptions quadric;
 };
 
-/// What else a collapse has to pass, for those who divide the surface into regions.
+/// What else a collapse has to pass, for those who divide the surface into regions. Several threads
+/// ask at once, each of points whose neighbours all belong to the cell that it drains: what one of
+/// them reads of its points and of those around the target, no other changes at that time.
 class CollapseGuard {
  public:
   virtual ~CollapseGuard() = default;
-  /// Whether the guard wants to know of collapses of this point: those are done by one thread.
-  /// Not asked of points without features.
+  /// Whether the guard wants to know of collapses of this point. Not asked of points without
+  /// features.
   [[nodiscard]] virtual bool watches(std::uint32_t point) const = 0;
   /// Asked for a legal collapse of a watched point, or onto one.
   [[nodiscard]] virtual bool allows(std::uint32_t from, std::uint32_t onto) = 0;

@@ -1,5 +1,6 @@
 #include <varifold/models/patch_tree/assemble.h>
 
+#include <varifold/base/parallel.h>
 #include <algorithm>
 #include <cmath>
 
@@ -18,8 +19,8 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
 class Assembler {
  public:
   Assembler(const TriangleMesh& mesh, const WorkingSurface& surface,
-            std::vector<AssembledLevel>& levels)
-      : mesh_(mesh), surface_(surface), levels_(levels) {}
+            std::vector<AssembledLevel>& levels, int threads)
+      : mesh_(mesh), surface_(surface), levels_(levels), threads_(threads) {}
 
   PatchTreeData assemble() {
     tree_.vertices.materials = mesh_.materials;
@@ -44,7 +45,7 @@ class Assembler {
   void link_level(std::size_t level);
   void add_neighbors(std::size_t level);
   void add_blocks(std::size_t level);
-  void add_vertices(const LevelBlocks& blocks);
+  void add_vertices(const LevelBlocks& blocks, std::size_t first);
   void find_bounds();
   void bound_leaf(std::uint32_t node);
   void bound_parent(std::uint32_t node);
@@ -53,6 +54,7 @@ class Assembler {
   const TriangleMesh& mesh_;
   const WorkingSurface& surface_;
   std::vector<AssembledLevel>& levels_;
+  int threads_;
   PatchTreeData tree_;
   // Per level and patch of it: the neighbours that move vertices of its children, ascending.
   std::vector<std::vector<std::vector<std::uint32_t>>> movers_;
@@ -85,10 +87,10 @@ void Assembler::make_room() {
   tree_.controllers.reserve(sum.controller);
   tree_.ranges.reserve(sum.range);
   TriangleMesh& vertices = tree_.vertices;
-  vertices.positions.reserve(sum.vertex);
-  if (mesh_.has_normals()) vertices.normals.reserve(sum.vertex);
-  if (mesh_.has_texcoords()) vertices.texcoords.reserve(sum.vertex);
-  if (mesh_.has_colors()) vertices.colors.reserve(sum.vertex);
+  vertices.positions.resize(sum.vertex);
+  if (mesh_.has_normals()) vertices.normals.resize(sum.vertex);
+  if (mesh_.has_texcoords()) vertices.texcoords.resize(sum.vertex);
+  if (mesh_.has_colors()) vertices.colors.resize(sum.vertex);
 }
 
 void Assembler::link_level(std::size_t level) {
@@ -153,29 +155,37 @@ void Assembler::add_blocks(std::size_t level) {
   append(tree_.survivors, blocks.parent_vertex);
   append(tree_.corners, blocks.corners);
   append(tree_.ranges, blocks.ranges);
-  add_vertices(blocks);
+  add_vertices(blocks, base.vertex);
 }
 
-void Assembler::add_vertices(const LevelBlocks& blocks) {
+void Assembler::add_vertices(const LevelBlocks& blocks, std::size_t first) {
   TriangleMesh& out = tree_.vertices;
-  for (const std::uint32_t wedge : blocks.wedges) {
-    const std::uint32_t v = surface_.wedge.vertex_of.empty() ? surface_.first_vertex_of_point[wedge]
-                                                             : surface_.wedge.vertex_of[wedge];
-    out.positions.push_back(mesh_.positions[v]);
-    if (mesh_.has_normals()) out.normals.push_back(mesh_.normals[v]);
-    if (mesh_.has_texcoords()) out.texcoords.push_back(mesh_.texcoords[v]);
-    if (mesh_.has_colors()) out.colors.push_back(mesh_.colors[v]);
-  }
+  const std::vector<std::uint32_t>& vertex_of =
+      surface_.wedge.vertex_of.empty() ? surface_.first_vertex_of_point : surface_.wedge.vertex_of;
+  parallel_for(threads_, blocks.wedges.size(), 16384, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint32_t v = vertex_of[blocks.wedges[i]];
+      out.positions[first + i] = mesh_.positions[v];
+      if (mesh_.has_normals()) out.normals[first + i] = mesh_.normals[v];
+      if (mesh_.has_texcoords()) out.texcoords[first + i] = mesh_.texcoords[v];
+      if (mesh_.has_colors()) out.colors[first + i] = mesh_.colors[v];
+    }
+  });
 }
 
+// Leaves first: what is known of children bounds their parent.
 void Assembler::find_bounds() {
   tree_.bounds.resize(tree_.topology.node_count());
-  for (std::uint32_t node = tree_.topology.node_count(); node-- > 0;) {
-    if (tree_.topology.is_leaf(node))
-      bound_leaf(node);
-    else
-      bound_parent(node);
-  }
+  for (std::size_t level = 0; level < levels_.size(); ++level)
+    parallel_for(threads_, levels_[level].neighbors.first.size() - 1, 16,
+                 [&](std::size_t begin, std::size_t end) {
+                   for (auto p = static_cast<std::uint32_t>(begin); p < end; ++p) {
+                     if (level == 0)
+                       bound_leaf(first_node(level) + p);
+                     else
+                       bound_parent(first_node(level) + p);
+                   }
+                 });
   // Errors: each level's own, and no less than those below.
   const float scale = static_cast<float>(1 / surface_.scale);
   for (std::size_t level = 1; level < levels_.size(); ++level)
@@ -264,8 +274,8 @@ std::vector<std::uint32_t> first_children(const AssembledLevel& level, std::uint
 }
 
 PatchTreeData assemble(const TriangleMesh& mesh, const WorkingSurface& surface,
-                       std::vector<AssembledLevel> levels) {
-  return Assembler(mesh, surface, levels).assemble();
+                       std::vector<AssembledLevel> levels, int threads) {
+  return Assembler(mesh, surface, levels, threads).assemble();
 }
 
 PatchTreeData empty_tree(const TriangleMesh& mesh) {

@@ -27,7 +27,7 @@ struct AssembledLevel {
 /// Numbers the nodes, gathers vertices, and nests bounds and errors. `levels` run from the leaves
 /// on. O(size of the tree).
 [[nodiscard]] PatchTreeData assemble(const TriangleMesh& mesh, const WorkingSurface& surface,
-                                     std::vector<AssembledLevel> levels);
+                                     std::vector<AssembledLevel> levels, int threads);
 
 /// A tree of one empty patch, for a mesh without triangles.
 [[nodiscard]] PatchTreeData empty_tree(const TriangleMesh& mesh);

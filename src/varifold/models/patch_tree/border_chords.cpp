@@ -15,7 +15,7 @@ std::uint64_t key_of(std::uint32_t a, std::uint32_t b) {
 }  // namespace
 
 // An edge of K between two points of borders, as it may be drawn: inside a region, or on a border.
-void BorderGuard::find_chords(std::uint32_t border, bool all) {
+void BorderGuard::find_chords(std::uint32_t border, bool all, std::vector<Chord>& chords) const {
   const BorderPoint& p = points_[border];
   for (const StarFace& out : star(p)) {
     const std::uint32_t other = border_of_[out.from];
@@ -40,12 +40,12 @@ void BorderGuard::find_chords(std::uint32_t border, bool all) {
       }
       if (!possible || shown[0] == shown[1]) continue;
       chord.edge = key_of(shown[0], shown[1]);
-      chords_.push_back(chord);
+      chords.push_back(chord);
     }
   }
 }
 
-void BorderGuard::find_new_chords(std::uint32_t border) {
+void BorderGuard::find_new_chords(std::uint32_t border, std::vector<Chord>& chords) const {
   const std::uint32_t point = points_[border].point;
   const auto ring = surface_.ring_span(point);
   for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -55,11 +55,11 @@ void BorderGuard::find_new_chords(std::uint32_t border) {
     if (ring[i].face == kNone || before.face == kNone) continue;
     const std::uint32_t region = surface_.region_of[ring[i].face];
     if (region != surface_.region_of[before.face]) continue;
-    chords_.push_back({std::uint64_t{point} << 32 | neighbor,
-                       {{region, true}, {}, {}},
-                       region,
-                       border,
-                       border_of_[neighbor]});
+    chords.push_back({std::uint64_t{point} << 32 | neighbor,
+                      {{region, true}, {}, {}},
+                      region,
+                      border,
+                      border_of_[neighbor]});
   }
 }
 
@@ -86,19 +86,20 @@ bool BorderGuard::clash(const Chord& x, const Chord& y) const {
 }
 
 // Nearly all clashes are between two regions at a corner onto which points of both have moved.
-bool BorderGuard::is_free_of_clashes(std::uint32_t corner) {
-  chords_.clear();
-  for (std::uint32_t i = corner; i != kNone; i = points_[i].next) find_chords(i, true);
-  std::sort(chords_.begin(), chords_.end());
-  for (std::size_t i = 0; i < chords_.size(); ++i)
-    for (std::size_t j = i; j-- > 0 && chords_[j].edge == chords_[i].edge;)
-      if (clash(chords_[i], chords_[j])) return false;
+bool BorderGuard::is_free_of_clashes(std::uint32_t corner) const {
+  thread_local std::vector<Chord> chords;  // so that its memory is kept
+  chords.clear();
+  for (std::uint32_t i = corner; i != kNone; i = points_[i].next) find_chords(i, true, chords);
+  std::sort(chords.begin(), chords.end());
+  for (std::size_t i = 0; i < chords.size(); ++i)
+    for (std::size_t j = i; j-- > 0 && chords[j].edge == chords[i].edge;)
+      if (clash(chords[i], chords[j])) return false;
   return true;
 }
 
-bool BorderGuard::lock_chords(BorderLocks& locks) {
+bool BorderGuard::lock_chords(std::vector<Chord>& chords, BorderLocks& locks) const {
   bool any = false;
-  std::sort(chords_.begin(), chords_.end());
+  std::sort(chords.begin(), chords.end());
   const auto lock = [&](const Chord& chord) {
     if (chord.needs[0].coarse)
       locks.edges.emplace_back(static_cast<std::uint32_t>(chord.edge >> 32),
@@ -106,15 +107,15 @@ bool BorderGuard::lock_chords(BorderLocks& locks) {
     for (const std::uint32_t b : {chord.a, chord.b})
       if (points_[b].target != b) locks.points.push_back(points_[b].point);
   };
-  for (std::size_t first = 0, last; first < chords_.size(); first = last) {
+  for (std::size_t first = 0, last; first < chords.size(); first = last) {
     last = first + 1;
-    while (last < chords_.size() && chords_[last].edge == chords_[first].edge) ++last;
+    while (last < chords.size() && chords[last].edge == chords[first].edge) ++last;
     for (std::size_t i = first; i < last; ++i)
       for (std::size_t j = first; j < i; ++j)
-        if (clash(chords_[i], chords_[j])) {
+        if (clash(chords[i], chords[j])) {
           any = true;
-          lock(chords_[i]);
-          lock(chords_[j]);
+          lock(chords[i]);
+          lock(chords[j]);
         }
   }
   return any;

@@ -1,5 +1,6 @@
 #include <varifold/models/patch_tree/border_guard.h>
 
+#include <varifold/base/parallel.h>
 #include <varifold/models/patch_tree/patch_tree.h>
 #include <varifold/simplify/classify.h>
 #include <algorithm>
@@ -13,6 +14,7 @@ namespace {
 constexpr float kMinCosine = 0.2588f;
 // 2 * area / longest edge^2 of a switched triangle, unless it was below before.
 constexpr float kMinShape = 1e-3f;
+constexpr std::size_t kPointsPerPiece = 1024;
 
 using Corners = std::array<Vec3, 3>;
 
@@ -38,6 +40,11 @@ bool keeps_shape(const Corners& before, const Corners& after) {
 
 std::pair<std::uint32_t, std::uint32_t> sorted_pair(std::uint32_t a, std::uint32_t b) {
   return a < b ? std::pair(a, b) : std::pair(b, a);
+}
+
+template <class T>
+void append(std::vector<T>& to, const std::vector<T>& from) {
+  to.insert(to.end(), from.begin(), from.end());
 }
 
 template <class T>
@@ -147,7 +154,8 @@ bool BorderGuard::allows(std::uint32_t from, std::uint32_t onto) {
   if (target == kNone || regions[0] == kNone) return false;
   const std::uint32_t last = points_[target].last;
   join(b, target);
-  const bool sound = is_sound(target, regions[0]) && is_sound(target, regions[1]) &&
+  thread_local Link link;  // so that its memory is kept
+  const bool sound = is_sound(target, regions[0], link) && is_sound(target, regions[1], link) &&
                      (points_[target].regions[0] != kNone || is_free_of_clashes(target));
   part(b, target, last);
   return sound;
@@ -186,51 +194,52 @@ bool BorderGuard::gather_controllers(std::uint32_t target, std::uint32_t region,
   return true;
 }
 
-bool BorderGuard::is_sound(std::uint32_t target, std::uint32_t region) {
+bool BorderGuard::is_sound(std::uint32_t target, std::uint32_t region, Link& link) const {
   Mixture mixture;
-  const int fans = count_fans(target, region, mixture);
+  const int fans = count_fans(target, region, mixture, link);
   if (fans < 0 || !gather_controllers(target, region, mixture)) return false;
   for (mixture.coarse = 1; mixture.coarse < 1u << mixture.count; ++mixture.coarse)
-    if (count_fans(target, region, mixture) != fans || !keeps_shapes(target, region, mixture))
+    if (count_fans(target, region, mixture, link) != fans || !keeps_shapes(target, region, mixture))
       return false;
   return true;
 }
 
 // How many fans the faces of a region form around the target; -1 where they form something else.
-int BorderGuard::count_fans(std::uint32_t target, std::uint32_t region, const Mixture& mixture) {
+int BorderGuard::count_fans(std::uint32_t target, std::uint32_t region, const Mixture& mixture,
+                            Link& link) const {
   const std::uint32_t apex = points_[target].point;
-  link_.clear();
+  link.clear();
   for (std::uint32_t i = target; i != kNone; i = points_[i].next) {
     if (image(points_[i].point, region, mixture) != apex) continue;
     for (const StarFace& face : star(points_[i])) {
       if (face.region != region) continue;
       const std::uint32_t from = image(face.from, region, mixture);
       const std::uint32_t to = image(face.to, region, mixture);
-      if (from != apex && to != apex && from != to) link_.emplace_back(from, to);
+      if (from != apex && to != apex && from != to) link.emplace_back(from, to);
     }
   }
-  return count_paths();
+  return count_paths(link);
 }
 
 // The number of paths that the directed edges of a link form; -1 where an end repeats or a path
 // closes beside others.
-int BorderGuard::count_paths() {
-  const std::size_t size = link_.size();
+int BorderGuard::count_paths(const Link& link) {
+  const std::size_t size = link.size();
   for (std::size_t i = 0; i < size; ++i)
     for (std::size_t j = 0; j < i; ++j)
-      if (link_[j].first == link_[i].first || link_[j].second == link_[i].second) return -1;
+      if (link[j].first == link[i].first || link[j].second == link[i].second) return -1;
   const auto leaving = [&](std::uint32_t end) {
-    return std::find_if(link_.begin(), link_.end(),
+    return std::find_if(link.begin(), link.end(),
                         [&](const auto& edge) { return edge.first == end; });
   };
   int paths = 0;
   std::size_t walked = 0;
-  for (const auto& first : link_) {
+  for (const auto& first : link) {
     const bool is_start = std::none_of(
-        link_.begin(), link_.end(), [&](const auto& edge) { return edge.second == first.first; });
+        link.begin(), link.end(), [&](const auto& edge) { return edge.second == first.first; });
     if (!is_start) continue;
     ++paths;
-    for (auto edge = leaving(first.first); edge != link_.end(); edge = leaving(edge->second))
+    for (auto edge = leaving(first.first); edge != link.end(); edge = leaving(edge->second))
       ++walked;
   }
   return walked == size ? paths : -1;
@@ -255,27 +264,52 @@ bool BorderGuard::keeps_shapes(std::uint32_t target, std::uint32_t region,
   return true;
 }
 
-bool BorderGuard::verify(BorderLocks& locks) {
+bool BorderGuard::verify(BorderLocks& locks, int threads) const {
+  struct Piece {
+    bool is_sound = true;
+    std::vector<Chord> chords;
+    BorderLocks locks;
+  };
+  std::vector<Piece> pieces((points_.size() + kPointsPerPiece - 1) / kPointsPerPiece);
+  parallel_for(threads, points_.size(), kPointsPerPiece, [&](std::size_t begin, std::size_t end) {
+    Piece& piece = pieces[begin / kPointsPerPiece];
+    piece.is_sound = verify_some(static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end),
+                                 piece.chords, piece.locks);
+  });
   bool sound = true;
-  chords_.clear();
+  std::vector<Chord> chords;
+  for (Piece& piece : pieces) {
+    sound &= piece.is_sound;
+    append(chords, piece.chords);
+    append(locks.points, piece.locks.points);
+    piece = {};
+  }
+  sound &= !lock_chords(chords, locks);
+  sort_unique(locks.points);
+  sort_unique(locks.edges);
+  return sound;
+}
+
+// The mixtures around some border points; gathers their chords.
+bool BorderGuard::verify_some(std::uint32_t begin, std::uint32_t end, std::vector<Chord>& chords,
+                              BorderLocks& locks) const {
+  bool sound = true;
+  Link link;
   std::vector<std::uint32_t> regions;
-  for (std::uint32_t b = 0; b < points_.size(); ++b) {
-    find_chords(b, false);
+  for (std::uint32_t b = begin; b < end; ++b) {
+    find_chords(b, false, chords);
     if (points_[b].target != b) continue;
-    find_new_chords(b);
+    find_new_chords(b, chords);
     if (points_[b].next == kNone) continue;  // nothing came here
     regions.clear();
     for (const StarFace& face : star(points_[b])) regions.push_back(face.region);
     sort_unique(regions);
     for (const std::uint32_t region : regions)
-      if (!is_sound(b, region)) {
+      if (!is_sound(b, region, link)) {
         sound = false;
         lock_around(b, locks);
       }
   }
-  sound &= !lock_chords(locks);
-  sort_unique(locks.points);
-  sort_unique(locks.edges);
   return sound;
 }
 

@@ -6,6 +6,10 @@
 // those. What the points of one border do depends on that border alone, so all mixtures around a
 // point are few: one for each subset of the neighbours at its triangles. A collapse is allowed when
 // in each of them no triangle turns and the triangles around the target are still one fan a side.
+//
+// What is read for a collapse are the points that came to its two ends, and where their neighbours
+// in K went: to neighbours of the two ends now, since f takes edges to edges. No such neighbour can
+// collapse in another cell meanwhile, so cells need not wait for each other.
 #pragma once
 
 #include <varifold/simplify/collapser.h>
@@ -47,7 +51,7 @@ class BorderGuard final : public CollapseGuard {
 
   /// Looks at all mixtures of the finished level. True where nothing is wrong; else the locks name
   /// what led to it. O(points on borders), with a sort.
-  [[nodiscard]] bool verify(BorderLocks& locks);
+  [[nodiscard]] bool verify(BorderLocks& locks, int threads) const;
 
   /// The region beside `region` that moves a point of the border between the two, kNone where the
   /// point does not move.
@@ -113,15 +117,16 @@ class BorderGuard final : public CollapseGuard {
   void join(std::uint32_t from, std::uint32_t onto);
   void part(std::uint32_t from, std::uint32_t onto, std::uint32_t last_of_onto);
   [[nodiscard]] bool may_join(std::uint32_t from, std::uint32_t onto);
-  [[nodiscard]] bool is_sound(std::uint32_t target, std::uint32_t region);
+  [[nodiscard]] bool is_sound(std::uint32_t target, std::uint32_t region, Link& link) const;
   [[nodiscard]] bool gather_controllers(std::uint32_t target, std::uint32_t region,
                                         Mixture& mixture) const;
   [[nodiscard]] std::uint32_t image(std::uint32_t point, std::uint32_t region,
                                     const Mixture& mixture) const;
-  [[nodiscard]] int count_fans(std::uint32_t target, std::uint32_t region, const Mixture& mixture);
+  [[nodiscard]] int count_fans(std::uint32_t target, std::uint32_t region, const Mixture& mixture,
+                               Link& link) const;
   [[nodiscard]] bool keeps_shapes(std::uint32_t target, std::uint32_t region,
                                   const Mixture& mixture) const;
-  [[nodiscard]] int count_paths();
+  [[nodiscard]] static int count_paths(const Link& link);
   [[nodiscard]] std::span<const StarFace> star(const BorderPoint& p) const {
     return {star_.data() + p.first_face, star_.data() + p.last_face};
   }
@@ -129,20 +134,20 @@ class BorderGuard final : public CollapseGuard {
     return surface_.points[point].position;
   }
   void lock_around(std::uint32_t target, BorderLocks& locks) const;
-  void find_chords(std::uint32_t border, bool all);
-  [[nodiscard]] bool is_free_of_clashes(std::uint32_t corner);
-  void find_new_chords(std::uint32_t border);
+  void find_chords(std::uint32_t border, bool all, std::vector<Chord>& chords) const;
+  [[nodiscard]] bool is_free_of_clashes(std::uint32_t corner) const;
+  void find_new_chords(std::uint32_t border, std::vector<Chord>& chords) const;
   [[nodiscard]] bool was_edge(const Chord& chord) const;
   [[nodiscard]] bool clash(const Chord& x, const Chord& y) const;
-  [[nodiscard]] bool lock_chords(BorderLocks& locks);
+  [[nodiscard]] bool verify_some(std::uint32_t begin, std::uint32_t end, std::vector<Chord>& chords,
+                                 BorderLocks& locks) const;
+  [[nodiscard]] bool lock_chords(std::vector<Chord>& chords, BorderLocks& locks) const;
 
   WorkingSurface& surface_;
   std::vector<std::uint32_t> border_of_;  // per point: its number in points_, or kNone
   std::vector<BorderPoint> points_;
   std::vector<StarFace> star_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> forbidden_;
-  Link link_;
-  std::vector<Chord> chords_;
 };
 
 }  // namespace varifold

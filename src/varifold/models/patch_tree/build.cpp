@@ -13,6 +13,7 @@
 #include <varifold/simplify/point_quadric.h>
 #include <algorithm>
 #include <chrono>
+#include <numeric>
 #include <utility>
 
 namespace varifold {
@@ -25,6 +26,7 @@ using Clock = std::chrono::steady_clock;
 constexpr double kPoorRatio = 0.9;
 // More triangles than this in a patch would not fit its 16-bit numbers.
 constexpr std::uint32_t kMaxPatchTriangles = 21000;
+constexpr std::size_t kPatchesPerPiece = 16;
 
 class Stopwatch {
  public:
@@ -56,12 +58,12 @@ class Builder {
   void order_by_patches(const std::vector<std::uint32_t>& patch_of);
   bool make_levels_of_detail();
   void begin_level(std::uint32_t level);
-  bool is_worth_it(std::uint32_t before, const HalvingReport& halving) const;
-  void keep_level(const LevelMesh& mesh, std::uint32_t level, const LevelHalving* halving);
+  bool is_worth_it(std::uint32_t level, std::span<const std::uint32_t> left) const;
+  void keep_level(std::uint32_t level, const LevelHalving* halving);
+  [[nodiscard]] PatchNeighbors neighbors_of(const LevelBlocks& blocks) const;
   [[nodiscard]] std::uint32_t point_of(std::uint32_t wedge) const {
     return surface_.wedge.has_seams() ? surface_.wedge.point_of[wedge] : wedge;
   }
-  [[nodiscard]] std::vector<std::uint32_t> points_of(const LevelMesh& mesh) const;
 
   const TriangleMesh& mesh_;
   const PatchTreeOptions& options_;
@@ -71,10 +73,8 @@ class Builder {
   AttributeField attributes_;
   std::vector<std::uint32_t> material_of_;  // per triangle of the input, or empty
   PatchLevels levels_;
-  LevelMesh level_mesh_;                   // of the present level
-  std::vector<std::uint32_t> patch_of_;    // per face of it
-  std::vector<std::uint32_t> first_face_;  // per patch of it, and one more
-  std::vector<AssembledLevel> kept_;       // from the leaves on
+  LevelMesh level_mesh_;              // of the present level
+  std::vector<AssembledLevel> kept_;  // from the leaves on
 };
 
 void Builder::make_surface() {
@@ -133,17 +133,14 @@ bool Builder::cut_into_patches() {
 
 void Builder::order_by_patches(const std::vector<std::uint32_t>& patch_of) {
   const std::uint32_t patches = levels_.level_count() > 0 ? levels_.patch_count(0) : 0;
-  first_face_.assign(patches + 1, 0);
-  for (const std::uint32_t patch : patch_of) ++first_face_[patch + 1];
-  for (std::size_t i = 1; i < first_face_.size(); ++i) first_face_[i] += first_face_[i - 1];
-  std::vector<std::uint32_t> next(first_face_.begin(), first_face_.end() - 1);
+  std::vector<std::uint32_t>& first = level_mesh_.first_face;
+  first.assign(patches + 1, 0);
+  for (const std::uint32_t patch : patch_of) ++first[patch + 1];
+  for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
+  std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
   std::vector<std::uint32_t> faces(patch_of.size());
-  patch_of_.resize(patch_of.size());
-  for (std::size_t i = 0; i < patch_of.size(); ++i) {
-    const std::uint32_t at = next[patch_of[i]]++;
-    faces[at] = level_mesh_.faces[i];
-    patch_of_[at] = patch_of[i];
-  }
+  for (std::size_t i = 0; i < patch_of.size(); ++i)
+    faces[next[patch_of[i]]++] = level_mesh_.faces[i];
   level_mesh_.faces = std::move(faces);
   level_mesh_.corners.resize(3 * patch_of.size());
   for (std::size_t i = 0; i < patch_of.size(); ++i)
@@ -155,80 +152,88 @@ void Builder::order_by_patches(const std::vector<std::uint32_t>& patch_of) {
     }
 }
 
-std::vector<std::uint32_t> Builder::points_of(const LevelMesh& mesh) const {
-  std::vector<std::uint32_t> points(mesh.corners.size());
-  for (std::size_t i = 0; i < points.size(); ++i) points[i] = point_of(mesh.corners[i]);
-  return points;
-}
-
 // The patches to come are the regions whose borders are kept.
 void Builder::begin_level(std::uint32_t level) {
   surface_.region_of.resize(mesh_.triangle_count(), kNone);
-  for (std::size_t i = 0; i < patch_of_.size(); ++i)
-    surface_.region_of[level_mesh_.faces[i]] = levels_.parent[level][patch_of_[i]];
+  const LevelMesh& mesh = level_mesh_;
+  parallel_for(options_.threads, mesh.patch_count(), kPatchesPerPiece,
+               [&](std::size_t begin, std::size_t end) {
+                 for (std::size_t patch = begin; patch < end; ++patch)
+                   for (auto i = mesh.first_face[patch]; i < mesh.first_face[patch + 1]; ++i)
+                     surface_.region_of[mesh.faces[i]] = levels_.parent[level][patch];
+               });
 }
 
-bool Builder::is_worth_it(std::uint32_t before, const HalvingReport& halving) const {
-  if (!halving.is_sound || level_mesh_.face_count() > kPoorRatio * before) return false;
-  std::vector<std::uint32_t> sizes(levels_.parent[kept_.size()].back() + 1, 0);
-  for (const std::uint32_t face : level_mesh_.faces) ++sizes[surface_.region_of[face]];
-  return *std::max_element(sizes.begin(), sizes.end()) <= kMaxPatchTriangles &&
+// `left`: how many triangles are left of each patch.
+bool Builder::is_worth_it(std::uint32_t level, std::span<const std::uint32_t> left) const {
+  const std::vector<std::uint32_t>& parent = levels_.parent[level];
+  std::vector<std::uint32_t> sizes(parent.back() + 1, 0);
+  for (std::size_t patch = 0; patch < left.size(); ++patch) sizes[parent[patch]] += left[patch];
+  const std::uint32_t sum = std::accumulate(sizes.begin(), sizes.end(), 0u);
+  return sum <= kPoorRatio * level_mesh_.face_count() &&
+         *std::max_element(sizes.begin(), sizes.end()) <= kMaxPatchTriangles &&
          *std::min_element(sizes.begin(), sizes.end()) > 0;
 }
 
-void Builder::keep_level(const LevelMesh& mesh, std::uint32_t level, const LevelHalving* halving) {
+void Builder::keep_level(std::uint32_t level, const LevelHalving* halving) {
   AssembledLevel kept;
-  const bool has_wedges = surface_.wedge.has_seams();
-  kept.neighbors = patch_neighbors(has_wedges ? points_of(mesh) : mesh.corners,
-                                   surface_.point_count(), patch_of_, levels_.patch_count(level));
   if (halving) kept.parent = levels_.parent[level];
-  const FinishedLevel finished{mesh, first_face_, kept.parent, material_of_, surface_, halving};
+  const FinishedLevel finished{level_mesh_, kept.parent, material_of_, surface_, halving};
   AssembledLevel* finer = kept_.empty() ? nullptr : &kept_.back();
   const std::vector<std::uint32_t> first_child =
       finer ? first_children(*finer, levels_.patch_count(level)) : std::vector<std::uint32_t>{};
   kept.blocks =
       lay_out_blocks(finished, finer ? &finer->blocks : nullptr, first_child, options_.threads);
-  result_.report.level_triangles.push_back(mesh.face_count());
-  result_.report.level_patches.push_back(levels_.patch_count(level));
+  kept.neighbors = neighbors_of(kept.blocks);
+  result_.report.level_triangles.push_back(level_mesh_.face_count());
+  result_.report.level_patches.push_back(level_mesh_.patch_count());
   kept_.push_back(std::move(kept));
+}
+
+PatchNeighbors Builder::neighbors_of(const LevelBlocks& blocks) const {
+  std::vector<std::uint32_t> points, first{0};
+  points.reserve(blocks.wedges.size());
+  first.reserve(blocks.offsets.size());
+  for (std::uint32_t patch = 0; patch < blocks.patch_count(); ++patch) {
+    const std::uint32_t* wedges = blocks.wedges.data() + blocks.offsets[patch].vertex;
+    for (std::uint32_t v = 0; v < blocks.drawn[patch]; ++v) points.push_back(point_of(wedges[v]));
+    first.push_back(static_cast<std::uint32_t>(points.size()));
+  }
+  return patch_neighbors(points, first, surface_.point_count());
 }
 
 bool Builder::make_levels_of_detail() {
   LevelHalving halving(surface_, attributes_, {options_.threads, options_.progress});
   LevelErrors errors(surface_, options_.threads);
   for (std::uint32_t level = 0;; ++level) {
-    const bool is_last = level + 1 == levels_.level_count();
-    if (is_last) {
-      keep_level(level_mesh_, level, nullptr);
+    if (level + 1 == levels_.level_count()) {
+      keep_level(level, nullptr);
       return true;
     }
     begin_level(level);
-    const LevelMesh before = level_mesh_;
-    const HalvingReport report = halving.halve(level_mesh_, (before.face_count() + 1) / 2);
+    const HalvingReport report = halving.halve(level_mesh_, (level_mesh_.face_count() + 1) / 2);
     if (report.cancelled) return false;
     result_.report.reruns += report.reruns;
     result_.report.locked_points += report.locked_points;
     result_.report.vanished_points += report.vanished_points;
+    const std::vector<std::uint32_t> left = halving.count_left(level_mesh_);
     watch_.add_to(result_.report.halving_seconds);
-    if (!is_worth_it(before.face_count(), report)) {
+    if (!report.is_sound || !is_worth_it(level, left)) {
       result_.report.stop = TreeStop::kPoorRatio;
-      keep_level(before, level, nullptr);
+      keep_level(level, nullptr);
       return true;
     }
-    errors.measure(halving.went(), halving.live());
-    watch_.add_to(result_.report.error_seconds);
-    keep_level(before, level, &halving);
-    add_errors(kept_.back(), errors, surface_);
+    parallel_both(
+        options_.threads,
+        [&] {
+          errors.measure(halving.went(), halving.live());
+          watch_.add_to(result_.report.error_seconds);
+        },
+        [&] { keep_level(level, &halving); });
+    add_errors(kept_.back(), errors, surface_, options_.threads);
     if (options_.priority == PatchPriority::kMeanValue)
       add_mean_value_errors(kept_.back(), errors, surface_, options_.threads);
-    // On to the patches of the next level.
-    patch_of_.resize(level_mesh_.faces.size());
-    first_face_.assign(levels_.patch_count(level + 1) + 1, 0);
-    for (std::size_t i = 0; i < patch_of_.size(); ++i) {
-      patch_of_[i] = surface_.region_of[level_mesh_.faces[i]];
-      ++first_face_[patch_of_[i] + 1];
-    }
-    for (std::size_t i = 1; i < first_face_.size(); ++i) first_face_[i] += first_face_[i - 1];
+    halving.shrink(level_mesh_, left, levels_.parent[level]);
     watch_.add_to(result_.report.layout_seconds);
   }
 }
@@ -249,7 +254,7 @@ Result<PatchTreeBuild> Builder::build() {
   surface_.region_of = {};
   surface_.reference_normal = {};
   level_mesh_ = {};
-  result_.tree = PatchTree(assemble(mesh_, surface_, std::move(kept_)));
+  result_.tree = PatchTree(assemble(mesh_, surface_, std::move(kept_), options_.threads));
   watch_.add_to(result_.report.layout_seconds);
   return std::move(result_);
 }

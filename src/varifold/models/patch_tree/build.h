@@ -47,6 +47,7 @@ struct PatchTreeReport {
   std::uint32_t vanished_points = 0;  ///< of components that went as a whole
   std::vector<std::uint32_t> level_triangles;  ///< from the leaves on
   std::vector<std::uint32_t> level_patches;
+  /// With several threads errors are measured while levels are laid out.
   double partition_seconds = 0, halving_seconds = 0, layout_seconds = 0, error_seconds = 0;
 };
 

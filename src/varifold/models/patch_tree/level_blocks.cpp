@@ -68,13 +68,17 @@ class PieceLayout {
 
   void add_patch(std::uint32_t patch) {
     parent_ = level_.parent.empty() ? kNone : level_.parent[patch];
-    numbers_.reset(level_.first_face[patch + 1] - level_.first_face[patch]);
+    numbers_.reset(level_.mesh.first_face[patch + 1] - level_.mesh.first_face[patch]);
     constant_.clear();
     border_.clear();
-    for (std::uint32_t i = level_.first_face[patch]; i < level_.first_face[patch + 1]; ++i)
+    for (std::uint32_t i = level_.mesh.first_face[patch]; i < level_.mesh.first_face[patch + 1];
+         ++i)
       (number_movers(i) ? border_ : constant_).push_back(i);
-    if (!level_.material_of.empty()) return add_by_material();
-    add_range(0, constant_, border_);
+    if (!level_.material_of.empty())
+      add_by_material();
+    else
+      add_range(0, constant_, border_);
+    out_.drawn.push_back(numbers_.count());
   }
 
   /// The survivors of vertices of the finer level, counted in the patch just added.
@@ -195,6 +199,7 @@ LevelBlocks join(std::vector<LevelBlocks>& pieces) {
       all.offsets.push_back({base.vertex + end.vertex, base.triangle + end.triangle,
                              base.controller + end.controller, base.range + end.range});
     }
+    append(all.drawn, piece.drawn);
     append(all.wedges, piece.wedges);
     append(all.survivors, piece.survivors);
     append(all.controllers, piece.controllers);
@@ -209,7 +214,7 @@ LevelBlocks join(std::vector<LevelBlocks>& pieces) {
 
 LevelBlocks lay_out_blocks(const FinishedLevel& level, LevelBlocks* finer,
                            std::span<const std::uint32_t> first_child, int threads) {
-  const auto patches = static_cast<std::uint32_t>(level.first_face.size() - 1);
+  const auto patches = level.mesh.patch_count();
   if (finer) finer->parent_vertex.resize(finer->wedges.size());
   std::vector<LevelBlocks> pieces((patches + kPatchesPerPiece - 1) / kPatchesPerPiece);
   parallel_for(threads, patches, kPatchesPerPiece, [&](std::size_t begin, std::size_t end) {

@@ -13,6 +13,7 @@ namespace varifold {
 /// What stands in the blocks of a level, patch after patch.
 struct LevelBlocks {
   std::vector<PatchOffsets> offsets;         ///< per patch, and one more
+  std::vector<std::uint32_t> drawn;          ///< per patch: its first vertices, of its triangles
   std::vector<std::uint32_t> wedges;         ///< per vertex
   std::vector<std::uint32_t> survivors;      ///< per vertex: a wedge of the next level
   std::vector<std::uint16_t> parent_vertex;  ///< per vertex: its survivor in the parent's patch
@@ -28,7 +29,6 @@ struct LevelBlocks {
 /// A level before it is halved, and what halving it did.
 struct FinishedLevel {
   const LevelMesh& mesh;                       ///< before
-  std::span<const std::uint32_t> first_face;   ///< per patch, and one more
   std::span<const std::uint32_t> parent;       ///< per patch; empty where there is no next level
   std::span<const std::uint32_t> material_of;  ///< per triangle of the input, or empty
   const WorkingSurface& surface;

@@ -15,6 +15,7 @@ namespace {
 constexpr float kMinShape = 0.01f;
 // Beyond so many runs all borders of the level stay as they are.
 constexpr std::uint32_t kMaxReruns = 16;
+constexpr std::size_t kPatchesPerPiece = 16;
 
 }  // namespace
 
@@ -42,7 +43,7 @@ void LevelHalving::set_references(const LevelMesh& mesh) {
   });
 }
 
-HalvingReport LevelHalving::halve(LevelMesh& mesh, std::uint32_t target_faces) {
+HalvingReport LevelHalving::halve(const LevelMesh& mesh, std::uint32_t target_faces) {
   HalvingReport report;
   BorderLocks locks;
   set_references(mesh);
@@ -57,7 +58,7 @@ HalvingReport LevelHalving::halve(LevelMesh& mesh, std::uint32_t target_faces) {
     std::vector<CollapseLogEntry> log;
     report.cancelled = !collapse(target_faces, log);
     const BorderLocks before = locks;
-    report.is_sound = !report.cancelled && guard_.verify(locks);
+    report.is_sound = !report.cancelled && guard_.verify(locks, options_.threads);
     if (report.is_sound || report.cancelled || report.reruns == kMaxReruns) {
       report.vanished_points = vanish(target_faces, log);
       find_survivors(log);
@@ -67,7 +68,6 @@ HalvingReport LevelHalving::halve(LevelMesh& mesh, std::uint32_t target_faces) {
     restore(mesh, log);
   }
   report.locked_points = static_cast<std::uint32_t>(locks.points.size());
-  shrink(mesh);
   return report;
 }
 
@@ -146,21 +146,51 @@ void LevelHalving::find_survivors(std::span<const CollapseLogEntry> log) {
   live_.resize(kept);
 }
 
-void LevelHalving::shrink(LevelMesh& mesh) const {
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
-    std::uint32_t w[3], p[3];
-    for (std::size_t k = 0; k < 3; ++k) {
-      w[k] = survivor_[mesh.corners[3 * i + k]];
-      p[k] = point_of(w[k]);
-    }
-    if (p[0] == p[1] || p[1] == p[2] || p[2] == p[0]) continue;
-    mesh.faces[kept] = mesh.faces[i];
-    for (std::size_t k = 0; k < 3; ++k) mesh.corners[3 * kept + k] = w[k];
-    ++kept;
+bool LevelHalving::is_left(const LevelMesh& mesh, std::size_t triangle,
+                           std::array<std::uint32_t, 3>& corners) const {
+  std::array<std::uint32_t, 3> p{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    corners[k] = survivor_[mesh.corners[3 * triangle + k]];
+    p[k] = point_of(corners[k]);
   }
-  mesh.faces.resize(kept);
-  mesh.corners.resize(3 * kept);
+  return p[0] != p[1] && p[1] != p[2] && p[2] != p[0];
+}
+
+std::vector<std::uint32_t> LevelHalving::count_left(const LevelMesh& mesh) const {
+  std::vector<std::uint32_t> left(mesh.patch_count(), 0);
+  parallel_for(options_.threads, left.size(), kPatchesPerPiece,
+               [&](std::size_t begin, std::size_t end) {
+                 std::array<std::uint32_t, 3> corners{};
+                 for (std::size_t patch = begin; patch < end; ++patch)
+                   for (auto i = mesh.first_face[patch]; i < mesh.first_face[patch + 1]; ++i)
+                     left[patch] += is_left(mesh, i, corners);
+               });
+  return left;
+}
+
+void LevelHalving::shrink(LevelMesh& mesh, std::span<const std::uint32_t> left,
+                          std::span<const std::uint32_t> parent) const {
+  LevelMesh result;
+  std::vector<std::uint32_t> first(left.size() + 1, 0);
+  for (std::size_t patch = 0; patch < left.size(); ++patch) {
+    if (patch == 0 || parent[patch] != parent[patch - 1]) result.first_face.push_back(first[patch]);
+    first[patch + 1] = first[patch] + left[patch];
+  }
+  result.first_face.push_back(first.back());
+  result.faces.resize(first.back());
+  result.corners.resize(3 * result.faces.size());
+  parallel_for(options_.threads, left.size(), kPatchesPerPiece,
+               [&](std::size_t begin, std::size_t end) {
+                 std::size_t to = first[begin];
+                 std::array<std::uint32_t, 3> corners{};
+                 for (auto i = mesh.first_face[begin]; i < mesh.first_face[end]; ++i) {
+                   if (!is_left(mesh, i, corners)) continue;
+                   result.faces[to] = mesh.faces[i];
+                   for (std::size_t k = 0; k < 3; ++k) result.corners[3 * to + k] = corners[k];
+                   ++to;
+                 }
+               });
+  mesh = std::move(result);
 }
 
 }  // namespace varifold

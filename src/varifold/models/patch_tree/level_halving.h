@@ -10,6 +10,7 @@
 #include <varifold/models/patch_tree/border_guard.h>
 #include <varifold/simplify/attribute_field.h>
 #include <varifold/simplify/working_surface.h>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -19,8 +20,12 @@ namespace varifold {
 
 /// The triangles of a level in the order of its patches.
 struct LevelMesh {
-  std::vector<std::uint32_t> faces;    ///< numbers of triangles of the input
-  std::vector<std::uint32_t> corners;  ///< three wedges for each
+  std::vector<std::uint32_t> faces;       ///< numbers of triangles of the input
+  std::vector<std::uint32_t> corners;     ///< three wedges for each
+  std::vector<std::uint32_t> first_face;  ///< per patch, and one more
+  [[nodiscard]] std::uint32_t patch_count() const {
+    return static_cast<std::uint32_t>(first_face.size() - 1);
+  }
   [[nodiscard]] std::uint32_t face_count() const {
     return static_cast<std::uint32_t>(faces.size());
   }
@@ -45,10 +50,17 @@ class LevelHalving {
   /// `attributes` may be empty. Both outlive this.
   LevelHalving(WorkingSurface& surface, AttributeField& attributes, const HalvingOptions& options);
 
-  /// Halves `mesh`, which is what the surface shows: the number of its triangles becomes
+  /// Halves what the surface shows, which is `mesh`: the number of its triangles becomes
   /// `target_faces` or as near above as the rules allow. surface.region_of tells for each face the
   /// patch to come. Afterwards survivor() and guard() speak of this level. O(points).
-  HalvingReport halve(LevelMesh& mesh, std::uint32_t target_faces);
+  HalvingReport halve(const LevelMesh& mesh, std::uint32_t target_faces);
+
+  /// Of each patch of the level before: how many of its triangles are left. O(triangles).
+  [[nodiscard]] std::vector<std::uint32_t> count_left(const LevelMesh& mesh) const;
+  /// Makes the level before the one that is left, in patches of the parents given: `left` as
+  /// counted, `parent` per patch, ascending. O(triangles).
+  void shrink(LevelMesh& mesh, std::span<const std::uint32_t> left,
+              std::span<const std::uint32_t> parent) const;
 
   /// Where a wedge of the level before went; itself if it stayed.
   [[nodiscard]] std::uint32_t survivor(std::uint32_t wedge) const { return survivor_[wedge]; }
@@ -67,7 +79,9 @@ class LevelHalving {
                                      std::vector<CollapseLogEntry>& log);
   void restore(const LevelMesh& mesh, std::span<const CollapseLogEntry> log);
   void find_survivors(std::span<const CollapseLogEntry> log);
-  void shrink(LevelMesh& mesh) const;
+  /// Where the corners of a triangle went; false where two of them fell together.
+  [[nodiscard]] bool is_left(const LevelMesh& mesh, std::size_t triangle,
+                             std::array<std::uint32_t, 3>& corners) const;
   [[nodiscard]] std::uint32_t point_of(std::uint32_t wedge) const {
     return surface_.wedge.has_seams() ? surface_.wedge.point_of[wedge] : wedge;
   }

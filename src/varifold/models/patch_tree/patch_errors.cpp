@@ -6,29 +6,28 @@
 
 namespace varifold {
 
-void add_errors(AssembledLevel& level, const LevelErrors& errors, const WorkingSurface& surface) {
+void add_errors(AssembledLevel& level, const LevelErrors& errors, const WorkingSurface& surface,
+                int threads) {
   const LevelBlocks& blocks = level.blocks;
   const std::uint32_t parents = level.parent.back() + 1;
+  const std::vector<std::uint32_t> first_child = first_children(level, parents);
   const auto point_of = [&](std::uint32_t wedge) {
     return surface.wedge.has_seams() ? surface.wedge.point_of[wedge] : wedge;
   };
-  std::vector<double> sum(parents, 0);
-  std::vector<std::uint32_t> count(parents, 0);
   level.error_of_parent.assign(parents, 0);
-  for (std::uint32_t patch = 0; patch < blocks.patch_count(); ++patch) {
-    const std::uint32_t parent = level.parent[patch];
+  level.mean_squared_of_parent.assign(parents, 0);
+  parallel_for(threads, parents, 1, [&](std::size_t parent, std::size_t) {
+    const std::uint32_t first = blocks.offsets[first_child[parent]].vertex;
+    const std::uint32_t last = blocks.offsets[first_child[parent + 1]].vertex;
+    double sum = 0;
     float greatest = 0;
-    for (std::uint32_t v = blocks.offsets[patch].vertex; v < blocks.offsets[patch + 1].vertex;
-         ++v) {
-      sum[parent] += errors.squared_step(point_of(blocks.wedges[v]));
+    for (std::uint32_t v = first; v < last; ++v) {
+      sum += errors.squared_step(point_of(blocks.wedges[v]));
       greatest = std::max(greatest, errors.greatest(point_of(blocks.survivors[v])));
     }
-    count[parent] += blocks.offsets[patch + 1].vertex - blocks.offsets[patch].vertex;
-    level.error_of_parent[parent] = std::max(level.error_of_parent[parent], greatest);
-  }
-  level.mean_squared_of_parent.resize(parents);
-  for (std::uint32_t p = 0; p < parents; ++p)
-    level.mean_squared_of_parent[p] = static_cast<float>(sum[p] / std::max(1u, count[p]));
+    level.error_of_parent[parent] = greatest;
+    level.mean_squared_of_parent[parent] = static_cast<float>(sum / std::max(1u, last - first));
+  });
 }
 
 void add_mean_value_errors(AssembledLevel& level, const LevelErrors& errors,

@@ -9,7 +9,8 @@ namespace varifold {
 
 /// What replacing the level's patches by their parents costs. The level before it is halved is in
 /// the blocks, the surface is that after. O(vertices).
-void add_errors(AssembledLevel& level, const LevelErrors& errors, const WorkingSurface& surface);
+void add_errors(AssembledLevel& level, const LevelErrors& errors, const WorkingSurface& surface,
+                int threads);
 
 /// The same for the mean squares alone, by mean value coordinates; vertices that these have no
 /// place for count as they did. O(vertices x rounds).
