@@ -2,6 +2,7 @@
 #pragma once
 
 #include <varifold/base/math.h>
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <vector>
@@ -30,6 +31,7 @@ class BucketQueue {
     if (head == kNone || chunks_[head].size == kChunkCapacity) head = add_chunk(bucket);
     Chunk& chunk = chunks_[head];
     chunk.vertices[chunk.size++] = vertex;
+    ++in_octave_[bucket >> kMantissaBits];
     ++size_;
   }
 
@@ -48,6 +50,7 @@ class BucketQueue {
       if (const std::uint32_t next = upcoming(chunk, kLater); next != kNone) prefetch.later(next);
       if (const std::uint32_t next = upcoming(chunk, kSoon); next != kNone) prefetch.soon(next);
       if (chunk.size == 0) drop_chunk(head);
+      --in_octave_[current_ >> kMantissaBits];
       --size_;
       return vertex;
     }
@@ -68,10 +71,12 @@ class BucketQueue {
     return bucket;
   }
 
-  /// Entries in buckets below `limit`. O(buckets + chunks).
+  /// Entries in buckets below `limit`. O(octaves + chunks of the last one).
   [[nodiscard]] std::size_t count_below(std::uint32_t limit) const {
     std::size_t count = 0;
-    for (std::uint32_t bucket = current_; bucket < limit; ++bucket)
+    for (std::uint32_t octave = 0; octave < limit >> kMantissaBits; ++octave)
+      count += in_octave_[octave];
+    for (std::uint32_t bucket = limit & ~(kBucketsPerOctave - 1); bucket < limit; ++bucket)
       for (std::uint32_t i = heads_[bucket]; i != kNone; i = chunks_[i].next)
         count += chunks_[i].size;
     return count;
@@ -83,6 +88,7 @@ class BucketQueue {
       for (std::uint32_t k = 0; k < chunks_[i].size; ++k)
         other.push(chunks_[i].vertices[k], bucket);
       size_ -= chunks_[i].size;
+      in_octave_[bucket >> kMantissaBits] -= chunks_[i].size;
       const std::uint32_t next = chunks_[i].next;
       chunks_[i].next = free_;
       free_ = i;
@@ -146,6 +152,7 @@ class BucketQueue {
 
   std::vector<std::uint32_t> heads_;
   std::vector<Chunk> chunks_;
+  std::array<std::uint32_t, kBucketCount / kBucketsPerOctave> in_octave_{};  // entries
   std::uint32_t free_ = kNone;
   std::uint32_t current_ = 0;
   std::size_t size_ = 0;

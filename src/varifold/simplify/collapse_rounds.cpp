@@ -89,21 +89,29 @@ class Rounds {
     return true;
   }
 
-  // Divides the faces that may still go among the cells, by what they have to do below a limit that
-  // is lowered until there is enough for all. False where the end is too near for that.
+  // Divides the faces that may still go among the cells, by what they have to do below a limit:
+  // as many octaves as there is enough for, so that cells are gone through a few times only, or
+  // less than one. False where the end is too near for that.
   bool share_out(std::uint32_t lowest, std::uint32_t& limit) {
     const std::uint64_t remaining = surface_.face_count - options_.target_faces;
-    const auto entries_below = [&] {
+    const auto entries_below = [&](std::uint32_t bucket) {
       std::uint64_t sum = 0;
-      for (const Cell& cell : cells_) sum += cell.queue.count_below(limit);
+      for (const Cell& cell : cells_) sum += cell.queue.count_below(bucket);
       return sum;
     };
     // A collapse removes two faces, and gives way to another one nearby.
     const auto fits = [&](std::uint64_t entries) { return 5 * entries <= 2 * remaining; };
-    std::uint64_t entries = entries_below();
+    const std::uint64_t all = entries_below(BucketQueue::kBucketCount);
+    std::uint64_t entries = entries_below(limit);
+    while (fits(entries) && entries < all) {
+      const std::uint64_t more = entries_below(limit + BucketQueue::kBucketsPerOctave);
+      if (!fits(more)) break;
+      limit += BucketQueue::kBucketsPerOctave;
+      entries = more;
+    }
     while (!fits(entries) && limit > lowest + 1) {
       limit = lowest + (limit - lowest) / 2;
-      entries = entries_below();
+      entries = entries_below(limit);
     }
     if (!fits(entries) || remaining < 16 * cells_.size()) return false;
     for (Cell& cell : cells_)
