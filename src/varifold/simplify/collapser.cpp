@@ -70,9 +70,10 @@ float Collapser::find_candidate(Cell& cell, std::uint32_t point) {
   const RingEntry* ring = surface_.ring(point);
   for (std::size_t i = 0; i < offsets.size(); ++i) {
     const std::uint32_t onto = ring[i].neighbor;
+    float cost = errors[i];
+    if (!(cost < least)) continue;
     if (along == CollapseAlong::kFeatureEdge && !edge_use_at(surface_, point, i).is_feature())
       continue;
-    float cost = errors[i];
     if (attributes_) cost += attribute_cost(point, onto, offsets[i]);
     if (!(cost < least)) continue;
     least = cost;

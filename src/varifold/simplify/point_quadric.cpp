@@ -2,6 +2,7 @@
 #include <varifold/simplify/point_quadric.h>
 
 #include <varifold/simplify/classify.h>
+#include <algorithm>
 #include <cmath>
 
 namespace varifold {
@@ -17,6 +18,9 @@ constexpr float kTiny = 1e-30f;
 void add_constraints(WorkingSurface& surface, std::uint32_t point, const QuadricOptions& options,
                      Quadric& quadric) {
   const auto ring = surface.ring_span(point);
+  const bool is_open = std::any_of(ring.begin(), ring.end(),
+                                   [](const RingEntry& entry) { return entry.face == kNone; });
+  if (!is_open && !surface.wedge.has_seams()) return;
   const Vec3 origin = surface.points[point].position;
   for (std::size_t i = 0; i < ring.size(); ++i) {
     if (ring[i].face == kNone) continue;
