@@ -8,13 +8,14 @@ namespace varifold {
 bool PathMover::shorten(std::uint32_t stretch) {
   bool is_shorter = false;
   for (bool again = true; again;) {
-    again = corridor_.find_shorter(patched_, stretch);
-    is_blocked_ = !again && corridor_.is_blocked();
-    // Where the path is not sound, its points are fixed now, and there may be another.
-    if (again && is_sound_path()) {
-      again = move(stretch);
-      is_shorter |= again;
-      is_blocked_ = !again;
+    again = false;
+    if (!corridor_.find_shorter(patched_, stretch)) {
+      is_blocked_ = corridor_.is_blocked();
+    } else if (!is_sound_path()) {
+      again = true;  // its points are fixed now, and there may be another
+    } else {
+      is_shorter = move(stretch);
+      is_blocked_ = true;  // whether it is will be seen when a patch has changed
     }
     corridor_.clear(patched_);
   }

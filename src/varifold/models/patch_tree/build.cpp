@@ -11,6 +11,7 @@
 #include <varifold/partition/patches.h>
 #include <varifold/simplify/input_fault.h>
 #include <varifold/simplify/point_quadric.h>
+#include <varifold/simplify/surface_builder.h>
 #include <algorithm>
 #include <chrono>
 #include <numeric>
@@ -53,8 +54,9 @@ class Builder {
   Result<PatchTreeBuild> build();
 
  private:
-  void make_surface();
-  bool cut_into_patches();
+  bool make_surface();
+  bool cut_into_patches(const WorkingSurface& surface);
+  void set_corners();
   void order_by_patches(const std::vector<std::uint32_t>& patch_of);
   bool make_levels_of_detail();
   void begin_level(std::uint32_t level);
@@ -77,44 +79,55 @@ class Builder {
   std::vector<AssembledLevel> kept_;  // from the leaves on
 };
 
-void Builder::make_surface() {
+// The surface and, meanwhile, the patches of its leaves. False where cancelled.
+bool Builder::make_surface() {
   SurfaceOptions options;
   options.with_wedges = needs_wedges(mesh_);
   options.threads = options_.threads;
-  surface_ = build_surface(mesh_, options, result_.report.faults);
   const bool has_materials =
       mesh_.ranges.size() > 1 || (mesh_.ranges.size() == 1 && mesh_.ranges[0].material != 0);
   if (has_materials) material_of_ = triangle_materials(mesh_);
-  if (!options.with_wedges) return;
+  SurfaceBuilder builder(mesh_, options);
+  bool is_cut = false;
+  parallel_both(
+      options_.threads, [&] { builder.make_rings(); },
+      [&] { is_cut = cut_into_patches(builder.surface()); });
+  if (!is_cut) return false;
+  surface_ = builder.finish(result_.report.faults);
+  // Repeated triangles are known now; they must not be in a patch.
+  if (result_.report.faults.duplicate_triangles > 0 && !cut_into_patches(surface_)) return false;
+  set_corners();
+  if (!options.with_wedges) return true;
   attributes_ = AttributeField(mesh_, surface_.wedge.vertex_of, options_.attributes);
   if (!attributes_.empty()) add_faces_to_attributes(surface_, attributes_, options_.threads);
+  return true;
 }
 
 // The triangles along the numbers of their points, and the leaves and levels made of them.
-bool Builder::cut_into_patches() {
+bool Builder::cut_into_patches(const WorkingSurface& surface) {
   const auto corner = [&](std::uint32_t face, std::size_t k) {
-    return surface_.point_of_vertex[mesh_.indices[3 * std::size_t{face} + k]];
+    return surface.point_of_vertex[mesh_.indices[3 * std::size_t{face} + k]];
   };
   const auto first_point = [&](std::uint32_t face) {
     return std::min({corner(face, 0), corner(face, 1), corner(face, 2)});
   };
-  std::vector<std::uint32_t> next(surface_.point_count() + 1, 0);
+  std::vector<std::uint32_t> next(surface.point_count() + 1, 0);
   for (std::uint32_t face = 0; face < mesh_.triangle_count(); ++face)
-    if (surface_.is_face[face]) ++next[first_point(face) + 1];
+    if (surface.is_face[face]) ++next[first_point(face) + 1];
   for (std::size_t p = 1; p < next.size(); ++p) next[p] += next[p - 1];
-  level_mesh_.faces.resize(surface_.face_count);
+  level_mesh_.faces.resize(surface.face_count);
   for (std::uint32_t face = 0; face < mesh_.triangle_count(); ++face)
-    if (surface_.is_face[face]) level_mesh_.faces[next[first_point(face)]++] = face;
+    if (surface.is_face[face]) level_mesh_.faces[next[first_point(face)]++] = face;
   next = {};
 
   std::vector<std::uint32_t> corners, materials;
-  std::vector<Vec3> positions(surface_.point_count());
+  std::vector<Vec3> positions(surface.point_count());
   corners.reserve(3 * level_mesh_.faces.size());
   for (const std::uint32_t face : level_mesh_.faces) {
     for (std::size_t k = 0; k < 3; ++k) corners.push_back(corner(face, k));
     if (!material_of_.empty()) materials.push_back(material_of_[face]);
   }
-  for (std::size_t p = 0; p < positions.size(); ++p) positions[p] = surface_.points[p].position;
+  for (std::size_t p = 0; p < positions.size(); ++p) positions[p] = surface.points[p].position;
 
   const SurfaceView view{corners, positions, materials};
   PartitionOptions options;
@@ -142,14 +155,18 @@ void Builder::order_by_patches(const std::vector<std::uint32_t>& patch_of) {
   for (std::size_t i = 0; i < patch_of.size(); ++i)
     faces[next[patch_of[i]]++] = level_mesh_.faces[i];
   level_mesh_.faces = std::move(faces);
-  level_mesh_.corners.resize(3 * patch_of.size());
-  for (std::size_t i = 0; i < patch_of.size(); ++i)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::size_t at = 3 * std::size_t{level_mesh_.faces[i]} + k;
-      level_mesh_.corners[3 * i + k] = surface_.wedge.has_seams()
-                                           ? surface_.wedge.corners[at]
-                                           : surface_.point_of_vertex[mesh_.indices[at]];
+}
+
+void Builder::set_corners() {
+  LevelMesh& mesh = level_mesh_;
+  mesh.corners.resize(3 * mesh.faces.size());
+  parallel_for(options_.threads, mesh.faces.size(), 16384, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = 3 * begin; i < 3 * end; ++i) {
+      const std::size_t at = 3 * std::size_t{mesh.faces[i / 3]} + i % 3;
+      mesh.corners[i] = surface_.wedge.has_seams() ? surface_.wedge.corners[at]
+                                                   : surface_.point_of_vertex[mesh_.indices[at]];
     }
+  });
 }
 
 // The patches to come are the regions whose borders are kept.
@@ -239,12 +256,11 @@ bool Builder::make_levels_of_detail() {
 }
 
 Result<PatchTreeBuild> Builder::build() {
-  make_surface();
+  if (!make_surface()) return fail(ErrorKind::kCancelled, "cancelled while making patches");
   if (surface_.face_count == 0) {
     result_.tree = PatchTree(empty_tree(mesh_));
     return std::move(result_);
   }
-  if (!cut_into_patches()) return fail(ErrorKind::kCancelled, "cancelled while making patches");
   watch_.add_to(result_.report.partition_seconds);
   if (!make_levels_of_detail()) return fail(ErrorKind::kCancelled, "cancelled while simplifying");
   // Only where its vertices come from is needed of the surface any more.
