@@ -25,6 +25,11 @@ class BucketQueue {
     return std::bit_cast<std::uint32_t>(cost) >> (23 - kMantissaBits);
   }
 
+  /// The least cost that falls into a bucket.
+  [[nodiscard]] static float least_cost(std::uint32_t bucket) {
+    return std::bit_cast<float>(bucket << (23 - kMantissaBits));
+  }
+
   void push(std::uint32_t vertex, std::uint32_t bucket) {
     if (bucket < current_) bucket = current_;
     std::uint32_t head = heads_[bucket];

@@ -2,6 +2,7 @@
 #include <varifold/simplify/collapse_rounds.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace varifold {
 
@@ -35,6 +36,7 @@ class Rounds {
       for_each_point(cell, [&](std::uint32_t point) { collapser_.queue_one(cell, point); });
     });
     const std::uint32_t all_faces = std::max(1u, surface_.face_count);
+    halfway_ = options_.target_faces + (all_faces - std::min(all_faces, options_.target_faces)) / 2;
     while (surface_.face_count > options_.target_faces && (round() || retry_blocked())) {
       log_.queue_bytes = std::max(log_.queue_bytes, queue_bytes());
       merge_cells();
@@ -74,10 +76,11 @@ class Rounds {
   bool round() {
     std::uint32_t lowest = BucketQueue::kBucketCount;
     for (const Cell& cell : cells_) lowest = std::min(lowest, cell.queue.lowest());
-    if (lowest == BucketQueue::kBucketCount) return false;
+    if (lowest >= dearest_) return false;
     const bool alone = cells_.size() == 1;
     std::uint32_t limit =
         (lowest / BucketQueue::kBucketsPerOctave + 1) * BucketQueue::kBucketsPerOctave;
+    limit = std::min(limit, dearest_);
     if (options_.exact && !share_out(lowest, limit)) {
       drain_last(lowest);
       return true;
@@ -86,7 +89,17 @@ class Rounds {
     for_each_cell([&](Cell& cell) { collapser_.drain(cell, limit, !alone); });
     merge_logs(lowest, limit);
     if (!alone) drain_borders(limit);
+    find_dearest(limit);
     return true;
+  }
+
+  // Halfway to the target: what the dearest collapse may cost.
+  void find_dearest(std::uint32_t limit) {
+    if (!(options_.most_cost > 0) || surface_.face_count > halfway_ ||
+        dearest_ != BucketQueue::kBucketCount)
+      return;
+    const float cost = options_.most_cost * BucketQueue::least_cost(limit);
+    if (std::isfinite(cost)) dearest_ = BucketQueue::bucket_of(cost);
   }
 
   // Divides the faces that may still go among the cells, by what they have to do below a limit:
@@ -103,10 +116,11 @@ class Rounds {
     const auto fits = [&](std::uint64_t entries) { return 5 * entries <= 2 * remaining; };
     const std::uint64_t all = entries_below(BucketQueue::kBucketCount);
     std::uint64_t entries = entries_below(limit);
-    while (fits(entries) && entries < all) {
-      const std::uint64_t more = entries_below(limit + BucketQueue::kBucketsPerOctave);
+    while (fits(entries) && entries < all && limit < dearest_) {
+      const std::uint32_t next = std::min(limit + BucketQueue::kBucketsPerOctave, dearest_);
+      const std::uint64_t more = entries_below(next);
       if (!fits(more)) break;
-      limit += BucketQueue::kBucketsPerOctave;
+      limit = next;
       entries = more;
     }
     while (!fits(entries) && limit > lowest + 1) {
@@ -229,6 +243,8 @@ class Rounds {
   CollapseLog log_;
   std::uint32_t live_points_ = 0;
   std::size_t entries_at_retry_ = 0;
+  std::uint32_t halfway_ = 0;                          // faces
+  std::uint32_t dearest_ = BucketQueue::kBucketCount;  // no bucket from here on
 };
 
 }  // namespace

@@ -20,6 +20,9 @@ struct CollapseLog {
 struct RoundOptions {
   std::uint32_t target_faces = 0;  ///< stop after the round that reaches it, ...
   bool exact = false;              ///< ... or after the collapse that does
+  /// Stop where a collapse would cost more than so many times what one did halfway to the target;
+  /// 0: never.
+  float most_cost = 0;
   /// The live points, ascending; empty: they are looked for among all.
   std::span<const std::uint32_t> live;
   int threads = 0;  ///< 0 = all

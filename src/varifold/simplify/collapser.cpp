@@ -5,9 +5,11 @@
 #include <varifold/simplify/collapser.h>
 
 #include <varifold/simplify/classify.h>
+#include <varifold/simplify/closest_on_triangle.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace varifold {
 
@@ -32,6 +34,32 @@ struct Prefetcher {
     }
   }
 };
+
+// From a point to the faces that would be there if it were gone; not below `enough`, where the
+// nearest need not be found. Those across from the target are the likeliest, so they come first.
+float squared_distance_after(const WorkingSurface& surface, std::uint32_t from, std::uint32_t onto,
+                             float enough) {
+  const Vec3 origin = surface.points[from].position;
+  const Vec3 apex = surface.points[onto].position - origin;
+  const std::span ring(surface.ring(from), surface.points[from].ring_size);
+  std::size_t at = 0;
+  while (at < ring.size() && ring[at].neighbor != onto) ++at;
+  at += ring.size() / 2;
+  float least = glm::dot(apex, apex);
+  for (std::size_t i = 0; i < ring.size() && least > enough; ++i) {
+    // Alternately before and after the one across.
+    const std::size_t step = (i + 1) / 2;
+    const std::size_t here = (at + (i % 2 == 0 ? step : 2 * ring.size() - step)) % ring.size();
+    const std::uint32_t m = ring[here].neighbor;
+    const std::uint32_t n = ring[here + 1 == ring.size() ? 0 : here + 1].neighbor;
+    if (ring[here].face == kNone || m == onto || n == onto) continue;
+    const Vec3 nearest = closest_on_triangle(apex, surface.points[m].position - origin,
+                                             surface.points[n].position - origin)
+                             .position;
+    least = std::min(least, glm::dot(nearest, nearest));
+  }
+  return least;
+}
 
 }  // namespace
 
@@ -125,10 +153,15 @@ void Collapser::drain(Cell& cell, std::uint32_t limit, bool confined) {
         continue;
       }
     }
-    if (test(cell, point, state.target) == Refusal::kLegal)
-      collapse(cell, point, state.target);
-    else
+    if (test(cell, point, state.target) != Refusal::kLegal) {
       try_others(cell, point);
+      continue;
+    }
+    const std::uint32_t due = due_bucket(point, state.target, cell.queue.current());
+    if (due > cell.queue.current())
+      requeue(cell, point, due);
+    else
+      collapse(cell, point, state.target);
   }
 }
 
@@ -154,7 +187,9 @@ void Collapser::try_others(Cell& cell, std::uint32_t point) {
     if (test(cell, point, candidates[i].target) != Refusal::kLegal) continue;
     state.target = candidates[i].target;
     state.step = from.weight > 0 ? std::sqrt(candidates[i].cost / from.weight) : 0.0f;
-    const std::uint32_t bucket = BucketQueue::bucket_of(candidates[i].cost);
+    const std::uint32_t bucket =
+        due_bucket(point, state.target,
+                   std::max(cell.queue.current(), BucketQueue::bucket_of(candidates[i].cost)));
     if (bucket > cell.queue.current())
       requeue(cell, point, bucket);
     else
@@ -172,6 +207,20 @@ Refusal Collapser::test(Cell& cell, std::uint32_t from, std::uint32_t onto) {
   if (!attributes_ && !surface_.wedge.has_seams()) return refusal;
   RingMerger merger(surface_, cell.scratch);
   return merger.match_wedges(attributes_, from, onto) ? Refusal::kLegal : Refusal::kSeam;
+}
+
+std::uint32_t Collapser::due_bucket(std::uint32_t from, std::uint32_t onto, std::uint32_t now) {
+  if (!(options_.distance_weight > 0)) return now;
+  PointState& state = surface_.points[from];
+  // Nearer than this there is nothing to wait for.
+  const float free =
+      std::sqrt(BucketQueue::least_cost(now) / options_.distance_weight) - state.error;
+  const float distance =
+      std::sqrt(squared_distance_after(surface_, from, onto, free > 0 ? free * free : 0.0f));
+  state.step = std::max(state.step, distance);
+  if (distance <= free) return now;
+  const float moved = state.error + distance;
+  return std::max(now, BucketQueue::bucket_of(options_.distance_weight * moved * moved));
 }
 
 void Collapser::collapse(Cell& cell, std::uint32_t from, std::uint32_t onto) {

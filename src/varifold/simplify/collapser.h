@@ -39,6 +39,9 @@ struct Cell {
 struct CollapserOptions {
   LegalityOptions legality;
   QuadricOptions quadric;
+  /// A collapse costs at least this times the square of how far the surface around the point has
+  /// moved with it: quadrics are weighted by area, and thin spikes have none. 0: quadrics alone.
+  float distance_weight = 0;
 };
 
 /// What else a collapse has to pass, for those who divide the surface into regions. Several threads
@@ -99,6 +102,9 @@ class Collapser {
   [[nodiscard]] Refusal test(Cell& cell, std::uint32_t from, std::uint32_t onto);
   /// Tries the candidates of a point from the cheapest on. True when one was done.
   void try_others(Cell& cell, std::uint32_t point);
+  /// Not before which bucket a legal collapse may be done; no less than `now`. Raises the step of
+  /// the point to what it would move.
+  [[nodiscard]] std::uint32_t due_bucket(std::uint32_t from, std::uint32_t onto, std::uint32_t now);
   void collapse(Cell& cell, std::uint32_t from, std::uint32_t onto);
   void touch(Cell& cell, std::uint32_t point);
   void requeue(Cell& cell, std::uint32_t point, std::uint32_t bucket);

@@ -73,7 +73,7 @@ class LevelHalving {
   [[nodiscard]] const BorderGuard& guard() const { return guard_; }
 
  private:
-  void set_references(const LevelMesh& mesh);
+  void begin_level(const LevelMesh& mesh);
   [[nodiscard]] bool collapse(std::uint32_t target_faces, std::vector<CollapseLogEntry>& log);
   [[nodiscard]] std::uint32_t vanish(std::uint32_t target_faces,
                                      std::vector<CollapseLogEntry>& log);
@@ -90,7 +90,8 @@ class LevelHalving {
   AttributeField& attributes_;
   HalvingOptions options_;
   BorderGuard guard_;
-  bool is_first_ = true;  // level
+  bool is_first_ = true;      // level
+  float area_per_point_ = 0;  // of the level
   std::vector<std::uint32_t> survivor_;
   std::vector<std::uint32_t> live_;  // points, ascending
   std::vector<std::pair<std::uint32_t, std::uint32_t>> went_;
