@@ -7,7 +7,9 @@
 #include <varifold/models/patch_tree/build.h>
 #include <varifold/models/patch_tree/extract.h>
 #include <algorithm>
+#include <cmath>
 #include <memory>
+#include <numbers>
 
 namespace varifold {
 namespace {
@@ -107,6 +109,53 @@ TEST(PatchTreeBuild, DoesNotDependOnThreads) {
     for (std::uint32_t n = 0; n < one.node_count(); ++n)
       ASSERT_EQ(one.data().bounds[n].error, other.data().bounds[n].error);
   }
+}
+
+// The unit sphere with a tube from its north pole on, turned around the z axis.
+TriangleMesh sphere_with_spike(float radius, float length) {
+  constexpr std::uint32_t kAround = 48, kSphereRings = 60, kSpikeRings = 40;
+  TriangleMesh mesh;
+  std::vector<Vec2> profile;  // distance from the axis, height
+  const float top = std::asin(radius);
+  for (std::uint32_t i = 1; i <= kSphereRings; ++i) {
+    const float angle = (std::numbers::pi_v<float> - top) * static_cast<float>(i) / kSphereRings;
+    profile.emplace_back(std::sin(angle), -std::cos(angle));
+  }
+  for (std::uint32_t i = 1; i <= kSpikeRings; ++i)
+    profile.emplace_back(
+        radius, profile[kSphereRings - 1].y + length * static_cast<float>(i) / kSpikeRings);
+  mesh.positions.emplace_back(0.0f, 0.0f, -1.0f);
+  for (const Vec2& p : profile)
+    for (std::uint32_t i = 0; i < kAround; ++i) {
+      const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(i) / kAround;
+      mesh.positions.emplace_back(p.x * std::cos(angle), p.x * std::sin(angle), p.y);
+    }
+  mesh.positions.emplace_back(0.0f, 0.0f, profile.back().y + radius);
+  const auto last = static_cast<std::uint32_t>(mesh.positions.size() - 1);
+  const auto rings = static_cast<std::uint32_t>(profile.size());
+  for (std::uint32_t i = 0; i < kAround; ++i) {
+    const std::uint32_t next = (i + 1) % kAround;
+    mesh.indices.insert(mesh.indices.end(), {0, 1 + next, 1 + i});
+    for (std::uint32_t r = 0; r + 1 < rings; ++r) {
+      const std::uint32_t a = 1 + r * kAround + i, b = 1 + r * kAround + next;
+      mesh.indices.insert(mesh.indices.end(), {a, b, b + kAround, a, b + kAround, a + kAround});
+    }
+    const std::uint32_t top_ring = 1 + (rings - 1) * kAround;
+    mesh.indices.insert(mesh.indices.end(), {top_ring + i, top_ring + next, last});
+  }
+  return mesh;
+}
+
+// A spike has no area to speak of, but a length that anybody sees.
+TEST(PatchTreeBuild, ThinSpikesStay) {
+  const TriangleMesh mesh = sphere_with_spike(0.002f, 1.0f);
+  const PatchTree tree = build(mesh, 64).tree;
+  const PatchTopology& topology = tree.topology();
+  ASSERT_GT(topology.level_count(), 4u);
+  for (std::uint32_t l = topology.level_count() - 4; l < topology.level_count(); ++l)
+    for (std::uint32_t node = topology.first_of_level[l]; node < topology.first_of_level[l + 1];
+         ++node)
+      EXPECT_LT(tree.data().bounds[node].error, 0.1f) << "level " << l;
 }
 
 TEST(PatchTreeBuild, BoundsNestAndErrorsSaturate) {
