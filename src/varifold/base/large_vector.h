@@ -7,9 +7,14 @@
 namespace varifold {
 
 /// Memory for `bytes`, aligned to at least 64; beyond a few megabytes aligned to, and marked for,
-/// huge pages, which saves most page faults and address translations. Throws std::bad_alloc.
+/// huge pages, which saves most page faults and address translations, and given back to the system
+/// as soon as it is freed. Throws std::bad_alloc.
 [[nodiscard]] void* allocate_large(std::size_t bytes);
-void free_large(void* memory) noexcept;
+/// `bytes` as it was allocated.
+void free_large(void* memory, std::size_t bytes) noexcept;
+
+/// Gives what small allocations have left free back to the system, where the system has a way.
+void release_free_memory();
 
 template <class T>
 struct LargeAllocator {
@@ -18,7 +23,7 @@ struct LargeAllocator {
   template <class U>
   LargeAllocator(const LargeAllocator<U>&) {}  // NOLINT: allocators convert
   T* allocate(std::size_t count) { return static_cast<T*>(allocate_large(count * sizeof(T))); }
-  void deallocate(T* memory, std::size_t) noexcept { free_large(memory); }
+  void deallocate(T* memory, std::size_t count) noexcept { free_large(memory, count * sizeof(T)); }
   friend bool operator==(const LargeAllocator&, const LargeAllocator&) { return true; }
 };
 

@@ -31,7 +31,7 @@ class Rounds {
 
   CollapseLog run() {
     log_.entries.reserve(surface_.point_count());
-    log_.removed_faces.reserve(surface_.face_count);
+    if (options_.log_faces) log_.removed_faces.reserve(surface_.face_count);
     for_each_cell([&](Cell& cell) {
       for_each_point(cell, [&](std::uint32_t point) { collapser_.queue_one(cell, point); });
     });
@@ -177,9 +177,11 @@ class Rounds {
   void append_range(const Cell& cell, std::size_t first, std::size_t last, std::size_t first_face,
                     std::size_t faces) {
     log_.entries.insert(log_.entries.end(), cell.log.begin() + first, cell.log.begin() + last);
-    const auto face = cell.removed_faces.begin() + static_cast<std::ptrdiff_t>(first_face);
-    log_.removed_faces.insert(log_.removed_faces.end(), face,
-                              face + static_cast<std::ptrdiff_t>(faces));
+    if (options_.log_faces) {
+      const auto face = cell.removed_faces.begin() + static_cast<std::ptrdiff_t>(first_face);
+      log_.removed_faces.insert(log_.removed_faces.end(), face,
+                                face + static_cast<std::ptrdiff_t>(faces));
+    }
     live_points_ -= static_cast<std::uint32_t>(last - first);
     surface_.face_count -= static_cast<std::uint32_t>(faces);
   }

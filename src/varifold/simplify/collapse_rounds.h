@@ -20,6 +20,7 @@ struct CollapseLog {
 struct RoundOptions {
   std::uint32_t target_faces = 0;  ///< stop after the round that reaches it, ...
   bool exact = false;              ///< ... or after the collapse that does
+  bool log_faces = true;           ///< which faces went, not only how many
   /// Stop where a collapse would cost more than so many times what one did halfway to the target;
   /// 0: never.
   float most_cost = 0;

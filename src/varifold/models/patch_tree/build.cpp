@@ -1,5 +1,6 @@
 #include <varifold/models/patch_tree/build.h>
 
+#include <varifold/base/large_vector.h>
 #include <varifold/base/parallel.h>
 #include <varifold/models/patch_tree/assemble.h>
 #include <varifold/models/patch_tree/level_blocks.h>
@@ -15,6 +16,7 @@
 #include <algorithm>
 #include <chrono>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 namespace varifold {
@@ -97,6 +99,7 @@ bool Builder::make_surface() {
   // Repeated triangles are known now; they must not be in a patch.
   if (result_.report.faults.duplicate_triangles > 0 && !cut_into_patches(surface_)) return false;
   set_corners();
+  surface_.point_of_vertex = {};  // corners are all that is asked for from here on
   if (!options.with_wedges) return true;
   attributes_ = AttributeField(mesh_, surface_.wedge.vertex_of, options_.attributes);
   if (!attributes_.empty()) add_faces_to_attributes(surface_, attributes_, options_.threads);
@@ -120,13 +123,16 @@ bool Builder::cut_into_patches(const WorkingSurface& surface) {
     if (surface.is_face[face]) level_mesh_.faces[next[first_point(face)]++] = face;
   next = {};
 
-  std::vector<std::uint32_t> corners, materials;
-  std::vector<Vec3> positions(surface.point_count());
-  corners.reserve(3 * level_mesh_.faces.size());
-  for (const std::uint32_t face : level_mesh_.faces) {
-    for (std::size_t k = 0; k < 3; ++k) corners.push_back(corner(face, k));
-    if (!material_of_.empty()) materials.push_back(material_of_[face]);
-  }
+  const std::size_t faces = level_mesh_.faces.size();
+  LargeVector<std::uint32_t> corners(3 * faces), materials(material_of_.empty() ? 0 : faces);
+  parallel_for(options_.threads, faces, 16384, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint32_t face = level_mesh_.faces[i];
+      for (std::size_t k = 0; k < 3; ++k) corners[3 * i + k] = corner(face, k);
+      if (!materials.empty()) materials[i] = material_of_[face];
+    }
+  });
+  LargeVector<Vec3> positions(surface.point_count());
   for (std::size_t p = 0; p < positions.size(); ++p) positions[p] = surface.points[p].position;
 
   const SurfaceView view{corners, positions, materials};
@@ -221,7 +227,7 @@ PatchNeighbors Builder::neighbors_of(const LevelBlocks& blocks) const {
 
 bool Builder::make_levels_of_detail() {
   LevelHalving halving(surface_, attributes_, {options_.threads, options_.progress});
-  LevelErrors errors(surface_, options_.threads);
+  std::optional<LevelErrors> errors;  // made when the first collapses are done: they need room, too
   for (std::uint32_t level = 0;; ++level) {
     if (level + 1 == levels_.level_count()) {
       keep_level(level, nullptr);
@@ -240,16 +246,20 @@ bool Builder::make_levels_of_detail() {
       keep_level(level, nullptr);
       return true;
     }
+    // The queues and logs of the first levels are much of what there is; then what is kept of them.
+    if (level < 2) release_free_memory();
+    if (!errors) errors.emplace(surface_, options_.threads);
     parallel_both(
         options_.threads,
         [&] {
-          errors.measure(halving.went(), halving.live());
+          errors->measure(halving.went(), halving.live());
           watch_.add_to(result_.report.error_seconds);
         },
         [&] { keep_level(level, &halving); });
-    add_errors(kept_.back(), errors, surface_, options_.threads);
+    add_errors(kept_.back(), *errors, surface_, options_.threads);
     if (options_.priority == PatchPriority::kMeanValue)
-      add_mean_value_errors(kept_.back(), errors, surface_, options_.threads);
+      add_mean_value_errors(kept_.back(), *errors, surface_, options_.threads);
+    if (level == 0) release_free_memory();
     halving.shrink(level_mesh_, left, levels_.parent[level]);
     watch_.add_to(result_.report.layout_seconds);
   }
@@ -270,6 +280,7 @@ Result<PatchTreeBuild> Builder::build() {
   surface_.region_of = {};
   surface_.reference_normal = {};
   level_mesh_ = {};
+  release_free_memory();
   result_.tree = PatchTree(assemble(mesh_, surface_, std::move(kept_), options_.threads));
   watch_.add_to(result_.report.layout_seconds);
   return std::move(result_);

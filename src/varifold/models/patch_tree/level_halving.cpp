@@ -99,6 +99,7 @@ bool LevelHalving::collapse(std::uint32_t target_faces, std::vector<CollapseLogE
     RoundOptions rounds;
     rounds.target_faces = target_faces;
     rounds.exact = true;
+    rounds.log_faces = false;
     if (min_shape == kMinShape) rounds.most_cost = kMostCost;
     rounds.live = live_;
     rounds.threads = options_.threads;
@@ -152,7 +153,8 @@ void LevelHalving::find_survivors(std::span<const CollapseLogEntry> log) {
     for (std::uint32_t w = wedge.first[from]; w < wedge.first[from + 1]; ++w)
       survivor_[w] = survivor_[wedge.target[w]];
   }
-  went_.clear();
+  went_ = {};
+  went_.reserve(live_.size() / 2);
   std::size_t kept = 0;
   for (const std::uint32_t p : live_) {
     if (surface_.points[p].flags & PointState::kDead)
