@@ -143,10 +143,9 @@ CommandResult render_level(const RenderCommand& command, const std::shared_ptr<c
                                                  asks_for_view(command.view, command.level));
   warn_of_base(command.input, command.level, model->vertex_count(0), model->triangle_count(0));
   report.text("kind", "kind", ModelKind<Model>::kName);
-  if (!chosen.is_front) {
-    report.count("level", "level", chosen.level);
-    report.length("error", "error", model->error(chosen.level));
-  }
+  if (!chosen.is_front) report.count("level", "level", chosen.level);
+  if (chosen.error) report.length("error", "error", *chosen.error);
+  report_budget(command.level, chosen, report);
   report.length("pixel_error", "error in pixels", chosen.pixel_error);
   Scene scene{{}, &full, chosen.triangles, {}};
   if constexpr (kHasPatches<Model>) {

@@ -50,8 +50,8 @@ def figures(tool, meshes, out):
     picture("figure_1_smoothed", smooth, *ear)
 
     for step in range(4):
-        triangles = str(int(69451 / 4**step))
-        picture(f"figure_3_level_{step}", smooth, "--color", "patch", "--triangles", triangles)
+        level = str(bunny_report["levels"] - 1 - 2 * step)
+        picture(f"figure_3_level_{step}", smooth, "--color", "patch", "--level", level)
 
     near = ["--eye", "0.02,0.16,0.14", "--target", "-0.06,0.14,0", "--fovy", "60"]
     picture("figure_5_cracks", smooth, *near, "--pixels", "1.5", "--no-border-switch")

@@ -96,6 +96,54 @@ TEST_F(PatchTreeTool, ExtractFrontsThatAreClosed) {
   EXPECT_EQ(extract({"--lod", "1"})["triangles"], 20480);
 }
 
+TEST_F(PatchTreeTool, TrianglesWithoutAViewMixLevels) {
+  (void)make({"--patch-triangles", "64"});
+  bool is_mixed = false;
+  for (const int budget : {2000, 3500, 6000, 12000, 20479}) {
+    const json front = extract({"--triangles", std::to_string(budget)});
+    EXPECT_FALSE(front.contains("level"));
+    EXPECT_EQ(front["over_budget"], false);
+    const int stored = front["triangles"].get<int>() + front["collapsed_triangles"].get<int>();
+    EXPECT_LE(stored, budget);
+    EXPECT_GT(stored, 0.9 * budget);
+    is_mixed |= front["collapsed_triangles"] > 0;
+    EXPECT_EQ(run_tool({"check", path("front.ply"), "--closed"}).exit_code, 0);
+    const json rendered = run_json({"render", path("m.vfm"), "--triangles", std::to_string(budget),
+                                    "--size", "64x64", "-o", path("m.png")});
+    EXPECT_EQ(rendered["triangles"], stored);
+    EXPECT_EQ(rendered["error"], front["error"]);
+    // The finest whole level of no more.
+    json level;
+    for (int k = 0; k < 12; ++k) {
+      const json next = extract({"--level", std::to_string(k)});
+      EXPECT_EQ(next["level"], k);
+      if (next["triangles"] > budget) break;
+      level = next;
+      if (next["level"] == next["finest_level"]) break;
+    }
+    EXPECT_LT(front["error"], level["error"]);
+  }
+  EXPECT_TRUE(is_mixed);
+  // All of it is the finest level, nothing are the roots.
+  const json all = extract({"--triangles", "20480"});
+  EXPECT_EQ(all["level"], all["finest_level"]);
+  EXPECT_EQ(all["error"], 0);
+  const ToolResult none =
+      run_tool({"extract", path("m.vfm"), "--triangles", "1", "-o", path("front.ply"), "--json"});
+  EXPECT_EQ(none.exit_code, 0);
+  EXPECT_NE(none.err.find("nothing coarser"), std::string::npos) << none.err;
+  EXPECT_EQ(none.json()["over_budget"], true);
+  EXPECT_EQ(none.json()["triangles"], extract({"--level", "0"})["triangles"]);
+  EXPECT_EQ(none.json()["error"], extract({"--level", "0"})["error"]);
+  // No such level, and two levels.
+  EXPECT_EQ(run_tool({"extract", path("m.vfm"), "--level", "99", "-o", path("f.ply")}).exit_code,
+            2);
+  EXPECT_EQ(run_tool({"extract", path("m.vfm"), "--level", "1", "--triangles", "500", "-o",
+                      path("f.ply")})
+                .exit_code,
+            2);
+}
+
 TEST_F(PatchTreeTool, CheckLooksAtFronts) {
   (void)make({"--patch-triangles", "64"});
   const json sound = run_json({"check", path("m.vfm"), "--fronts", "40"});
