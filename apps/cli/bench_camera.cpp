@@ -64,6 +64,8 @@ Json frame_list(std::span<const CameraFrame> frames, bool is_drawn) {
                     {"changed_bytes", frame.changed_bytes},
                     {"adapt_ms", 1e3 * frame.adapt_seconds},
                     {"draw_list_ms", 1e3 * frame.list_seconds},
+                    {"upload_ms", is_drawn ? Json(1e3 * frame.upload_seconds) : Json()},
+                    {"uploaded_bytes", is_drawn ? Json(frame.uploaded_bytes) : Json()},
                     {"drawing_ms", is_drawn ? Json(1e3 * frame.draw_seconds) : Json()},
                     {"jump_pixels", frame.jumps.vertex_pixels},
                     {"surface_jump_pixels", frame.jumps.surface_pixels}});
@@ -105,7 +107,7 @@ void add_lists(const CameraTest& test, std::span<const CameraFrame> frames, Json
   const auto triangles = [](const CameraFrame& f) { return f.measures.triangles; };
   const double all = std::max(1.0, sum_of(frames, triangles));
   const double strips = sum_of(frames, [](const auto& f) { return f.measures.strips; });
-  result["strips"] = test.strips;
+  result["strips"] = test.lists.strips;
   result["strips_mean"] = strips / static_cast<double>(frames.size());
   result["triangles_per_strip"] = strips > 0 ? Json(all / strips) : Json();
   const auto indices = [](const CameraFrame& f) { return f.measures.indices; };
@@ -145,6 +147,21 @@ void add_fronts(const CameraTest& test, std::span<const CameraFrame> frames, Jso
   result["triangles_goal"] = test.triangles ? Json(*test.triangles) : Json();
   result["goal_error_mean"] = test.triangles ? Json(sum_of(frames, off_goal) / count) : Json();
   result["goal_error_max"] = test.triangles ? Json(greatest(frames, off_goal)) : Json();
+}
+
+// Null where nothing is drawn. The first frame uploads all.
+void add_uploads(std::span<const CameraFrame> frames, bool is_drawn, Json& result) {
+  const auto later = frames.subspan(1);
+  std::vector<double> uploading, drawing;
+  for (const CameraFrame& frame : later) {
+    uploading.push_back(frame.upload_seconds);
+    drawing.push_back(frame.draw_seconds);
+  }
+  const double bytes = sum_of(later, [](const auto& f) { return f.uploaded_bytes; }) /
+                       std::max<double>(1, static_cast<double>(later.size()));
+  result["upload_ms_p50"] = is_drawn ? Json(1e3 * percentile(uploading, 0.5)) : Json();
+  result["uploaded_bytes_mean"] = is_drawn ? Json(bytes) : Json();
+  result["drawing_ms_p50"] = is_drawn ? Json(1e3 * percentile(drawing, 0.5)) : Json();
 }
 
 // Null where a model has no patches.
@@ -190,7 +207,7 @@ void add_camera_test_options(CLI::App& command, CameraTest& test) {
       ->type_name("T")
       ->group(group);
   command
-      .add_flag("--strips", test.strips,
+      .add_flag("--strips", test.lists.strips,
                 "Draw triangle strips, made anew in each frame (view-dependent meshes)")
       ->group(group);
   command
@@ -248,6 +265,7 @@ Json camera_result(const CameraTest& test, const CameraPath& path,
   add_patches(frames, result);
   add_jumps(frames, result);
   add_lists(test, frames, result);
+  add_uploads(frames, is_drawn, result);
   result["indices_submitted"] =
       static_cast<std::uint64_t>(sum_of(frames, [](const auto& f) { return f.indices; }));
   result["frames_checksum"] = frames_checksum(frames);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <apps/cli/context.h>
+#include <apps/cli/frame_lists.h>
 #include <apps/cli/level_options.h>
 #include <apps/cli/report.h>
 #include <varifold/base/result.h>
@@ -27,7 +28,7 @@ struct CameraTest {
   std::optional<PictureSize> size;
   std::uint32_t morph_frames = 0;
   bool per_frame = false;
-  bool strips = false;  ///< made anew for each frame
+  ListOptions lists;
   bool no_frustum = false, no_orientation = false;
   bool paper_priority = false;  ///< of patch trees
 
@@ -44,6 +45,8 @@ void add_camera_test_options(CLI::App& command, CameraTest& test);
 /// What happened at one frame.
 struct CameraFrame {
   double adapt_seconds = 0, list_seconds = 0, draw_seconds = 0;
+  double upload_seconds = 0;
+  std::uint64_t uploaded_bytes = 0;
   double from_roots_seconds = 0;  // of choosing the same front without the one before
   std::uint32_t patches = 0;
   std::uint32_t splits = 0, collapses = 0, forced_splits = 0, vertices = 0, triangles = 0;
@@ -79,18 +82,6 @@ template <UniformModel Model>
   return targets;
 }
 
-/// Instances of triangles that can be drawn as strips, too.
-template <class Model>
-concept MakesStrips = requires(InstanceOf<Model>& instance) {
-  { instance.draw_strips() } -> std::same_as<DrawList>;
-};
-
-/// Models of patches choose fronts from the roots, too.
-template <class Model>
-concept DrawsPatches = requires(const InstanceOf<Model>& instance) {
-  instance.front().draws();
-};
-
 /// Counts what a list draws and, after the lists of the frames before, what of it is new.
 class ListMeasures {
  public:
@@ -100,8 +91,14 @@ class ListMeasures {
   std::uint64_t vertices_ = 0, indices_ = 0;
 };
 
+/// What bringing the buffers of the device up to date took.
+struct Upload {
+  std::size_t bytes = 0;
+  double seconds = 0;
+};
+
 /// Draws a list as a camera sees it; empty where nothing is drawn.
-using DrawFrame = std::function<Result<void>(const DrawList&, const Camera&)>;
+using DrawFrame = std::function<Result<Upload>(const FrameList&, const Camera&)>;
 
 /// What part of a budget may stay unused in a frame.
 inline constexpr float kUnusedBudget = 0.004f;
@@ -138,19 +135,23 @@ class CameraWalk {
   Result<void> time(std::span<const Camera> cameras, const DrawFrame& draw,
                     std::vector<CameraFrame>& frames, std::size_t& instance_bytes) {
     InstanceOf<Model> instance(model_);
+    FrameLists<Model> lists(model_, test_.lists);
     for (std::size_t i = 0; i < cameras.size(); ++i) {
       CameraFrame& frame = frames[i];
       const Stopwatch adapting;
       frame = adapt(instance, cameras[i]);
       frame.adapt_seconds = adapting.seconds();
       const Stopwatch listing;
-      const DrawList list = list_of(instance);
+      const FrameList list = lists.of(instance);
       frame.list_seconds = listing.seconds();
-      for (const DrawRange& range : list.ranges) frame.indices += range.index_count;
+      frame.indices = submitted_indices(list).indices;
       if (!draw) continue;
       const Stopwatch drawing;
-      if (auto drawn = draw(list, cameras[i]); !drawn) return drawn;
+      const auto drawn = draw(list, cameras[i]);
+      if (!drawn) return tl::unexpected(drawn.error());
       frame.draw_seconds = drawing.seconds();
+      frame.upload_seconds = drawn->seconds;
+      frame.uploaded_bytes = drawn->bytes;
     }
     instance_bytes = instance.bytes();
     return {};
@@ -185,21 +186,23 @@ class CameraWalk {
     return criteria;
   }
 
-  DrawList list_of(InstanceOf<Model>& instance) const {
-    if constexpr (MakesStrips<Model>)
-      if (test_.strips) return instance.draw_strips();
-    return instance.draw_list();
-  }
-
   void measure(std::span<const Camera> cameras, std::vector<CameraFrame>& frames) {
     InstanceOf<Model> instance(model_);
     std::optional<FrameJumps> jumps;
     if constexpr (UniformModel<Model>) jumps.emplace(collapse_targets(*model_));
-    ListMeasures lists;
+    ListMeasures measures;
+    // Caches and jumps are those of the triangles, however they are drawn.
+    ListOptions options = test_.lists;
+    options.arrays = true;
+    FrameLists<Model> lists(model_, options), drawn(model_, test_.lists);
     for (std::size_t i = 0; i < cameras.size(); ++i) {
       (void)adapt(instance, cameras[i]);
-      const DrawList list = list_of(instance);
-      lists.next(list, frames[i]);
+      const DrawList list = lists.of(instance).list;
+      measures.next(list, frames[i]);
+      if constexpr (DrawsPatches<Model>)
+        if (!test_.lists.arrays)
+          frames[i].changed_bytes =
+              drawn.of(instance).patches->changed_draws.size() * sizeof(PatchDrawCommand);
       std::vector<std::uint32_t> vertices;
       if constexpr (NumbersVertices<Model>) vertices = instance.vertices_of_slots();
       if (jumps) frames[i].jumps = jumps->next(list, vertices, cameras[i]);

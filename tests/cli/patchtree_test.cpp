@@ -4,7 +4,11 @@
 #include <tests/cli/run_tool.h>
 #include <tests/support/test_files.h>
 #include <varifold/io/model_file.h>
+#include <varifold/render/image_difference.h>
+#include <varifold/render/png.h>
+#include <map>
 #include <set>
+#include <span>
 
 namespace varifold {
 namespace {
@@ -231,6 +235,103 @@ TEST_F(PatchTreeTool, RenderShowsPatchesAndCracks) {
             2);
   EXPECT_EQ(
       run_tool({"render", path("m.ply"), "--no-border-switch", "-o", path("m.png")}).exit_code, 2);
+}
+
+Image8 picture_in(const std::string& path) {
+  const std::string bytes = bytes_of(path);
+  auto image = read_png(std::as_bytes(std::span(bytes)));
+  EXPECT_TRUE(image) << path;
+  return image ? std::move(*image) : Image8{};
+}
+
+// Commands over constant indices against index arrays, in which borders are written anew.
+TEST_F(PatchTreeTool, RenderLooksTheSameInBothForms) {
+  (void)make({"--patch-triangles", "64"});
+  const auto render = [&](const std::vector<std::string>& how, const std::string& name) {
+    std::vector<std::string> arguments{"render",          path("m.vfm"), "-o",       path(name),
+                                       "--size",          "320x240",     "--sphere", "1,0,0,0.3",
+                                       "--supersampling", "1",           "--json"};
+    arguments.insert(arguments.end(), how.begin(), how.end());
+    return run_tool(arguments);
+  };
+  if (const ToolResult plain = render({}, "a.png");
+      plain.exit_code == 1 && plain.err.find("EGL") != std::string::npos)
+    GTEST_SKIP() << "no OpenGL here: " << plain.err;
+  const Image8 plain = picture_in(path("a.png"));
+  for (const std::vector<std::string>& how :
+       std::vector<std::vector<std::string>>{{},
+                                             {"--color", "patch"},
+                                             {"--color", "level"},
+                                             {"--color", "strip"},
+                                             {"--color", "material"},
+                                             {"--wireframe"},
+                                             {"--flat", "--cull"},
+                                             {"--no-border-switch"}}) {
+    SCOPED_TRACE(::testing::PrintToString(how));
+    const ToolResult commands = render(how, "commands.png");
+    std::vector<std::string> arrays_of = how;
+    arrays_of.emplace_back("--arrays");
+    const ToolResult arrays = render(arrays_of, "arrays.png");
+    ASSERT_EQ(commands.exit_code, 0) << commands.err;
+    ASSERT_EQ(arrays.exit_code, 0) << arrays.err;
+    for (const char* const key : {"patches", "triangles", "collapsed_triangles", "pixel_error"})
+      EXPECT_EQ(commands.json()[key], arrays.json()[key]) << key;
+    const Image8 drawn = picture_in(path("commands.png"));
+    const auto same = image_difference(drawn, picture_in(path("arrays.png")), 6);
+    ASSERT_TRUE(same);
+    EXPECT_LE(same->part_above, 2e-4);
+    const auto other = image_difference(drawn, plain, 6);
+    ASSERT_TRUE(other);
+    if (how.size() < 2) {
+      EXPECT_EQ(other->max > 6, !how.empty());
+    }
+  }
+  EXPECT_EQ(run_tool({"render", path("m.ply"), "--arrays", "-o", path("m.png")}).exit_code, 2);
+}
+
+TEST_F(PatchTreeTool, BenchDrawsBothForms) {
+  (void)make({"--patch-triangles", "64"});
+  std::map<std::string, json> told;
+  for (const char* const how : {"none", "multi", "indirect"}) {
+    const ToolResult result =
+        run_tool({"bench", path("m.vfm"), "--test", "camera", "--path", "dive", "--pixels", "1",
+                  "--size", "400x300", "--per-frame", "--draw", how, "--json"});
+    if (result.exit_code == 1 && result.err.find("EGL") != std::string::npos)
+      GTEST_SKIP() << "no OpenGL here: " << result.err;
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    told[how] = result.json()["results"][0];
+    EXPECT_EQ(told[how]["draw"], how);
+    EXPECT_EQ(told[how]["frames_checksum"], told["none"]["frames_checksum"]);
+  }
+  EXPECT_TRUE(told["none"]["uploaded_bytes_mean"].is_null());
+  EXPECT_GT(told["indirect"]["uploaded_bytes_mean"], 0);
+  EXPECT_GT(told["indirect"]["upload_ms_p50"], 0);
+  // The arrays leave out what the switches collapse.
+  EXPECT_GE(told["indirect"]["indices_submitted"], told["multi"]["indices_submitted"]);
+  bool is_first = true;
+  for (const json& frame : told["indirect"]["per_frame"]) {
+    // 40 bytes a command; runs that are near each other are joined.
+    EXPECT_EQ(frame["changed_bytes"].get<int>() % 40, 0);
+    EXPECT_EQ(frame["uploaded_bytes"].get<int>() % 40, 0);
+    if (!is_first) {
+      EXPECT_GE(frame["uploaded_bytes"], frame["changed_bytes"]);
+    }
+    is_first = false;
+    EXPECT_EQ(frame["indices_submitted"], 3 * frame["triangles"].get<int>());
+  }
+  // One walk through the levels, too; by default with commands.
+  for (const auto& [how, expected] : std::map<std::string, std::string>{
+           {"auto", "indirect"}, {"multi", "multi"}, {"strips", "strips"}}) {
+    const json walk =
+        run_json({"bench", path("m.vfm"), "--steps", "20", "--draw", how})["results"][0];
+    EXPECT_EQ(walk["draw"], expected);
+    // Nothing is switched in whole levels, so that the arrays stay as they are.
+    EXPECT_EQ(walk["uploaded_bytes_mean"] > 0, expected == "indirect");
+  }
+  EXPECT_EQ(run_tool({"generate", "planet", "--triangles", "500", "-o", path("p.ply")}).exit_code,
+            0);
+  EXPECT_EQ(run_tool({"build", "pm", path("p.ply"), "-o", path("p.vfm")}).exit_code, 0);
+  EXPECT_EQ(run_tool({"bench", path("p.vfm"), "--draw", "indirect"}).exit_code, 2);
 }
 
 }  // namespace
