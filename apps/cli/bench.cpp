@@ -257,6 +257,9 @@ void check_test(const BenchCommand& command, const std::string& input, const Any
         if (command.camera.paper_priority && !DrawsPatches<Model>)
           wrong_usage(input + ": --paper-priority is for patch trees, not for kind " +
                       ModelKind<Model>::kName);
+        if (command.camera.morph_band && !DrawsPatches<Model>)
+          wrong_usage(input + ": --morph-band is for patch trees, not for kind " +
+                      ModelKind<Model>::kName);
         if (command.draw == "indirect" && !DrawsPatches<Model>)
           wrong_usage(input + ": --draw indirect is for patch trees, not for kind " +
                       ModelKind<Model>::kName);
@@ -357,12 +360,14 @@ void check_camera_test(const CLI::App& command, const BenchCommand& options) {
     if (options.camera.path.empty()) wrong_usage("--test camera needs a --path");
     if (options.camera.paper_priority && (!options.camera.triangles || options.camera.pixels))
       wrong_usage("--paper-priority has no unit: it needs --triangles, without --pixels");
+    if (options.camera.morph_band && (options.draw == "multi" || options.draw == "strips"))
+      wrong_usage("--morph-band: index arrays do not blend; it needs --draw indirect or none");
     if (command.count("--steps") > 0) wrong_usage("--steps: a camera has the frames of its path");
     return;
   }
   for (const char* const option :
        {"--path", "--pixels", "--triangles", "--size", "--per-frame", "--no-frustum",
-        "--no-orientation", "--strips", "--paper-priority"})
+        "--no-orientation", "--strips", "--paper-priority", "--morph-band"})
     if (command.count(option) > 0)
       wrong_usage(std::string(option) + " means nothing to --test " + options.test.name);
 }
@@ -408,7 +413,11 @@ void add_bench(CLI::App& app, CommandRunner& runner) {
   runner.add_common(*command, options->common, false);
   runner.attach(*command, options->common, [options, command] {
     check_camera_test(*command, *options);
-    options->camera.lists.arrays = options->draw == "multi" || options->draw == "strips";
+    CameraTest& camera = options->camera;
+    if (camera.morph_band)
+      camera.lists.morphs =
+          camera.paper_priority ? PatchMeasure::kMeanSquared : PatchMeasure::kPixels;
+    camera.lists.arrays = options->draw == "multi" || options->draw == "strips";
     return run_bench(*options);
   });
 }

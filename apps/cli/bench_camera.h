@@ -8,6 +8,7 @@
 #include <varifold/base/result.h>
 #include <varifold/io/any_model.h>
 #include <varifold/measure/frame_jumps.h>
+#include <varifold/measure/patch_motion.h>
 #include <varifold/strip/strip_measures.h>
 #include <varifold/view/camera_path.h>
 #include <algorithm>
@@ -30,7 +31,8 @@ struct CameraTest {
   bool per_frame = false;
   ListOptions lists;
   bool no_frustum = false, no_orientation = false;
-  bool paper_priority = false;  ///< of patch trees
+  bool paper_priority = false;      ///< of patch trees
+  std::optional<float> morph_band;  ///< of patch trees
 
   /// 1 where nothing is asked for; 0, as fine as the triangles allow, with --triangles alone.
   [[nodiscard]] float tolerance() const {
@@ -57,6 +59,8 @@ struct CameraFrame {
   double acmr_16 = 0, acmr_24 = 0;  // first-in first-out caches of so many vertices
   std::uint64_t changed_bytes = 0;  // what a device has to be sent
   FrameJumps::Jumps jumps;
+  std::uint64_t drawn_vertices = 0;           // different ones, of patches
+  std::uint64_t turned = 0, turned_seen = 0;  // triangles that blending turns over
 };
 
 /// The results of a walk, as the format of the JSON has them.
@@ -142,7 +146,8 @@ class CameraWalk {
       frame = adapt(instance, cameras[i]);
       frame.adapt_seconds = adapting.seconds();
       const Stopwatch listing;
-      const FrameList list = lists.of(instance);
+      FrameList list = lists.of(instance);
+      list.patch_style.morph = morph_of(cameras[i], frame.tolerance);
       frame.list_seconds = listing.seconds();
       frame.indices = submitted_indices(list).indices;
       if (!draw) continue;
@@ -171,11 +176,21 @@ class CameraWalk {
     }
   }
 
+  [[nodiscard]] PatchMeasure patch_measure() const {
+    return test_.paper_priority ? PatchMeasure::kMeanSquared : PatchMeasure::kPixels;
+  }
+
   [[nodiscard]] PatchFrontOptions patch_options() const {
     PatchFrontOptions options;
     options.limits = {test_.tolerance(), test_.triangles.value_or(kNone)};
-    if (test_.paper_priority) options.measure = PatchMeasure::kMeanSquared;
+    options.measure = patch_measure();
     return options;
+  }
+
+  [[nodiscard]] std::optional<PatchMorphRange> morph_of(const Camera& camera,
+                                                        float tolerance) const {
+    if (!test_.morph_band) return std::nullopt;
+    return morph_range(camera, patch_measure(), tolerance, *test_.morph_band);
   }
 
   [[nodiscard]] RefineCriteria criteria_of(const Camera& camera) const {
@@ -191,21 +206,39 @@ class CameraWalk {
     std::optional<FrameJumps> jumps;
     if constexpr (UniformModel<Model>) jumps.emplace(collapse_targets(*model_));
     ListMeasures measures;
-    // Caches and jumps are those of the triangles, however they are drawn.
+    // Caches are those of the triangles, however they are drawn.
     ListOptions options = test_.lists;
     options.arrays = true;
-    FrameLists<Model> lists(model_, options), drawn(model_, test_.lists);
+    FrameLists<Model> lists(model_, options);
     for (std::size_t i = 0; i < cameras.size(); ++i) {
       (void)adapt(instance, cameras[i]);
       const DrawList list = lists.of(instance).list;
       measures.next(list, frames[i]);
-      if constexpr (DrawsPatches<Model>)
-        if (!test_.lists.arrays)
-          frames[i].changed_bytes =
-              drawn.of(instance).patches->changed_draws.size() * sizeof(PatchDrawCommand);
       std::vector<std::uint32_t> vertices;
       if constexpr (NumbersVertices<Model>) vertices = instance.vertices_of_slots();
       if (jumps) frames[i].jumps = jumps->next(list, vertices, cameras[i]);
+    }
+    if constexpr (DrawsPatches<Model>) measure_patches(cameras, frames);
+  }
+
+  void measure_patches(std::span<const Camera> cameras, std::vector<CameraFrame>& frames) {
+    InstanceOf<Model> instance(model_);
+    ListOptions options = test_.lists;
+    options.arrays = false;
+    FrameLists<Model> lists(model_, options);
+    PatchMotion motion(model_);
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+      CameraFrame& frame = frames[i];
+      const float tolerance = adapt(instance, cameras[i]).tolerance;
+      const PatchDrawList list = *lists.of(instance).patches;
+      const auto told = motion.next(list, morph_of(cameras[i], tolerance), cameras[i]);
+      frame.jumps = told.jumps;
+      frame.moving = static_cast<std::uint32_t>(told.moving);
+      frame.drawn_vertices = told.vertices;
+      frame.turned = told.turned;
+      frame.turned_seen = told.turned_seen;
+      if (!test_.lists.arrays)
+        frame.changed_bytes = list.changed_draws.size() * sizeof(PatchDrawCommand);
     }
   }
 

@@ -6,6 +6,7 @@
 #include <varifold/render/renderer.h>
 #include <varifold/view/draw_list.h>
 #include <varifold/view/patch_draws.h>
+#include <varifold/view/patch_morph.h>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -42,8 +43,22 @@ struct FrameList {
 struct ListOptions {
   bool strips = false;  ///< made anew for each frame, by models that do
   bool arrays = false;  ///< patches as index arrays, whose borders are written anew
-  bool morphs = false;  ///< vertices of patches can blend
+  /// Vertices of patches can blend, by that measure of their errors.
+  std::optional<PatchMeasure> morphs;
 };
+
+/// How the vertices of a front blend that was chosen by a measure and stopped at a tolerance;
+/// nothing where no tolerance can be told.
+[[nodiscard]] inline std::optional<PatchMorphRange> morph_range(const Camera& camera,
+                                                                PatchMeasure measure,
+                                                                float tolerance, float band) {
+  if (!(tolerance > 0) || tolerance >= RefineCriteria::kFullDetail) return std::nullopt;
+  PatchMorphRange range = measure == PatchMeasure::kMeanSquared
+                              ? mean_squared_morph_range(camera.eye, tolerance)
+                              : pixel_morph_range(PixelScale(camera), tolerance);
+  range.band = band;
+  return range;
+}
 
 /// Makes the lists of one instance; to be asked once after each change of that.
 template <class Model>
@@ -53,8 +68,7 @@ class FrameLists {
       : strips_(options.strips) {
     if constexpr (DrawsPatches<Model>)
       if (!options.arrays)
-        draws_.emplace(std::make_shared<const PatchDrawTables>(
-            model, options.morphs ? std::optional(PatchMeasure::kPixels) : std::nullopt));
+        draws_.emplace(std::make_shared<const PatchDrawTables>(model, options.morphs));
   }
 
   [[nodiscard]] FrameList of(InstanceOf<Model>& instance) {

@@ -4,6 +4,7 @@
 #include <apps/cli/input.h>
 #include <apps/cli/level_options.h>
 #include <apps/cli/picture.h>
+#include <varifold/measure/patch_motion.h>
 #include <varifold/render/colors.h>
 #include <varifold/render/mesh_draw_list.h>
 #include <algorithm>
@@ -22,7 +23,8 @@ struct RenderCommand {
   PlaceOptions places;
   std::string input, output, color = "auto";
   bool flat = false, wireframe = false, cull = false, no_occlusion = false;
-  bool no_border_switch = false, arrays = false;
+  bool no_border_switch = false, arrays = false, morph = false;
+  float morph_band = PatchMorphRange().band;
   float wire_width = 1;
   int supersampling = 2;
 };
@@ -122,6 +124,7 @@ CommandResult render_mesh(const RenderCommand& command, const std::filesystem::p
     wrong_usage(command.input + ": --color " + command.color + " needs a model");
   if (command.no_border_switch) wrong_usage(command.input + ": --no-border-switch needs a model");
   if (command.arrays) wrong_usage(command.input + ": --arrays needs a model");
+  if (command.morph) wrong_usage(command.input + ": --morph needs a model");
   auto imported = read_surface(input);
   if (!imported) return tl::unexpected(imported.error());
   const TriangleMesh mesh = without_unused_vertices(imported->mesh);
@@ -133,12 +136,25 @@ CommandResult render_mesh(const RenderCommand& command, const std::filesystem::p
 template <class Model>
 void check_patch_options(const RenderCommand& command) {
   if constexpr (DrawsPatches<Model>) return;
-  for (const auto& [is_used, option] : {std::pair{command.color == "patch", "--color patch"},
-                                        std::pair{command.no_border_switch, "--no-border-switch"},
-                                        std::pair{command.arrays, "--arrays"}})
+  for (const auto& [is_used, option] :
+       {std::pair{command.color == "patch", "--color patch"},
+        std::pair{command.no_border_switch, "--no-border-switch"},
+        std::pair{command.arrays, "--arrays"}, std::pair{command.morph, "--morph"}})
     if (is_used)
       wrong_usage(command.input + ": " + option + " is for patch trees, not for kind " +
                   ModelKind<Model>::kName);
+}
+
+// Vertices of the front of a view go towards those of the next coarser level.
+void blend(const RenderCommand& command, const Camera& camera, const ChosenLevel& chosen,
+           const PatchTree& tree, Scene& scene, Report& report) {
+  const auto range =
+      morph_range(camera, PatchMeasure::kPixels, chosen.pixel_error, command.morph_band);
+  scene.drawn.patch_style.morph = range;
+  PatchMotion motion(std::shared_ptr<const PatchTree>(std::shared_ptr<void>(), &tree));
+  const PatchMotion::Frame told = motion.next(*scene.drawn.patches, range, camera);
+  report.count("moving_vertices", "vertices on their way", told.moving);
+  report.count("turned_triangles", "triangles turned over", told.turned);
 }
 
 template <class Model>
@@ -157,12 +173,15 @@ CommandResult render_level(const RenderCommand& command, const std::shared_ptr<c
   if (chosen.error) report.length("error", "error", *chosen.error);
   report_budget(command.level, chosen, report);
   report.length("pixel_error", "error in pixels", chosen.pixel_error);
-  FrameLists<Model> lists(model, {.arrays = command.arrays});
+  ListOptions how{.arrays = command.arrays};
+  if (command.morph) how.morphs = PatchMeasure::kPixels;
+  FrameLists<Model> lists(model, how);
   if constexpr (DrawsPatches<Model>) instance.set_switches(!command.no_border_switch);
   Scene scene{lists.of(instance), &full, chosen.triangles, {}};
   if constexpr (DrawsPatches<Model>) {
     scene.drawn.patch_style.switch_borders = !command.no_border_switch;
     scene.patches = instance.nodes_of_ranges();
+    if (command.morph) blend(command, *camera, chosen, *model, scene, report);
     report.count("patches", "patches", instance.front().draws().draws().size());
     report.count("collapsed_triangles", "collapsed at borders", instance.collapsed_triangles());
   }
@@ -174,6 +193,15 @@ CommandResult render_model(const RenderCommand& command, const std::filesystem::
   const auto any = read_any_model(input);
   if (!any) return tl::unexpected(any.error());
   return std::visit([&](const auto& model) { return render_level(command, model, report); }, *any);
+}
+
+void check_morph(const RenderCommand& command) {
+  if (!command.morph) return;
+  if (command.arrays) wrong_usage("--morph: index arrays do not blend; leave out --arrays");
+  if (!command.places.empty())
+    wrong_usage("--morph blends by what the view needs, not by --sphere, --plane or --light");
+  if (!asks_for_view(command.view, command.level))
+    wrong_usage("--morph needs a view: --pixels, or --triangles with --eye or --path");
 }
 
 CommandResult run_render(const RenderCommand& command) {
@@ -219,6 +247,17 @@ void add_render(CLI::App& app, CommandRunner& runner) {
   command->add_flag("--cull", options->cull, "Leave out what is seen from behind (else red)");
   command->add_flag("--no-border-switch", options->no_border_switch,
                     "Patch trees: leave the cracks where levels meet; back faces are bright red");
+  command->add_flag("--morph", options->morph,
+                    "Patch trees: blend vertices between levels, for the view of --pixels or "
+                    "--triangles");
+  command
+      ->add_option("--morph-band", options->morph_band,
+                   "With --morph: from this many times the tolerance down to it")
+      ->check(CLI::Range(1.01f, 16.0f))
+      ->check(finite_number())
+      ->needs("--morph")
+      ->capture_default_str()
+      ->type_name("B");
   command->add_flag("--arrays", options->arrays,
                     "Patch trees: draw index arrays, not commands over constant indices");
   command->add_flag("--no-occlusion", options->no_occlusion, "Without darkened creases");
@@ -229,6 +268,7 @@ void add_render(CLI::App& app, CommandRunner& runner) {
   runner.add_common(*command, options->common, false);
   runner.attach(*command, options->common, [options] {
     check_level_options(options->level);
+    check_morph(*options);
     return run_render(*options);
   });
 }

@@ -334,5 +334,85 @@ TEST_F(PatchTreeTool, BenchDrawsBothForms) {
   EXPECT_EQ(run_tool({"bench", path("p.vfm"), "--draw", "indirect"}).exit_code, 2);
 }
 
+TEST_F(PatchTreeTool, RenderBlendsBetweenLevels) {
+  (void)make({"--patch-triangles", "64"});
+  const auto render = [&](const std::vector<std::string>& how) {
+    std::vector<std::string> arguments{"render",  path("m.vfm"),     "-o", path("m.png"), "--size",
+                                       "200x150", "--supersampling", "1",  "--json"};
+    arguments.insert(arguments.end(), how.begin(), how.end());
+    return run_tool(arguments);
+  };
+  const ToolResult plain = render({"--pixels", "2"});
+  if (plain.exit_code == 1 && plain.err.find("EGL") != std::string::npos)
+    GTEST_SKIP() << "no OpenGL here: " << plain.err;
+  const Image8 without = picture_in(path("m.png"));
+  EXPECT_FALSE(plain.json().contains("moving_vertices"));
+  int moving = 0;
+  for (const std::vector<std::string>& band :
+       std::vector<std::vector<std::string>>{{}, {"--morph-band", "2"}}) {
+    std::vector<std::string> arguments{"--pixels", "2", "--morph"};
+    arguments.insert(arguments.end(), band.begin(), band.end());
+    const ToolResult blended = render(arguments);
+    ASSERT_EQ(blended.exit_code, 0) << blended.err;
+    const json told = blended.json();
+    EXPECT_EQ(told["triangles"], plain.json()["triangles"]) << "the same front";
+    EXPECT_GT(told["moving_vertices"], moving);
+    moving = told["moving_vertices"];
+    EXPECT_LT(told["turned_triangles"], 0.05 * told["triangles"].get<double>());
+    const auto other = image_difference(picture_in(path("m.png")), without, 6);
+    ASSERT_TRUE(other);
+    EXPECT_GT(other->part_above, 0.005);
+  }
+  EXPECT_EQ(render({"--triangles", "3000", "--eye", "2,0,0", "--morph"}).exit_code, 0);
+  // Nothing says where a vertex is on its way, or it cannot be drawn.
+  for (const std::vector<std::string>& wrong :
+       std::vector<std::vector<std::string>>{{"--morph"},
+                                             {"--triangles", "3000", "--morph"},
+                                             {"--pixels", "2", "--morph-band", "2"},
+                                             {"--pixels", "2", "--morph", "--morph-band", "1"},
+                                             {"--pixels", "2", "--morph", "--arrays"},
+                                             {"--pixels", "2", "--morph", "--sphere", "1,0,0,0.2"}})
+    EXPECT_EQ(render(wrong).exit_code, 2) << ::testing::PrintToString(wrong);
+  EXPECT_EQ(run_tool({"render", path("m.ply"), "--morph", "--pixels", "1", "-o", path("m.png")})
+                .exit_code,
+            2);
+}
+
+TEST_F(PatchTreeTool, BenchTellsOfJumpsAndTurnedTriangles) {
+  (void)make({"--patch-triangles", "64"});
+  const auto bench = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"bench",  path("m.vfm"), "--test",   "camera",
+                                       "--path", "dive",        "--pixels", "2",
+                                       "--size", "800x600",     "--json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_tool(arguments);
+  };
+  const json plain = bench({}).json()["results"][0];
+  const json blended = bench({"--morph-band", "2", "--per-frame"}).json()["results"][0];
+  EXPECT_EQ(plain["frames_checksum"], blended["frames_checksum"]);
+  EXPECT_TRUE(plain["morph_band"].is_null());
+  EXPECT_EQ(plain["moving_vertices_part"], 0);
+  EXPECT_EQ(plain["turned_per_million_triangles"], 0);
+  EXPECT_GT(plain["max_jump_pixels"], 5);
+  EXPECT_GT(plain["max_surface_jump_pixels"], 1);
+  // Most frames change nothing; blended ones change a little.
+  EXPECT_EQ(plain["jump_pixels_p50"], 0);
+  EXPECT_GT(blended["jump_pixels_p50"], 0);
+  EXPECT_LT(blended["max_jump_pixels"], plain["max_jump_pixels"].get<double>() / 2);
+  EXPECT_EQ(blended["morph_band"], 2);
+  EXPECT_GT(blended["moving_vertices_part"], 0.1);
+  EXPECT_GT(blended["turned_per_million_triangles"], 0);
+  double turned = 0, triangles = 0;
+  for (const json& frame : blended["per_frame"]) {
+    turned += frame["turned_triangles"].get<double>();
+    triangles += frame["triangles"].get<double>();
+    EXPECT_LE(frame["turned_seen"], frame["turned_triangles"]);
+  }
+  EXPECT_NEAR(blended["turned_per_million_triangles"], 1e6 * turned / triangles, 1e-3);
+  EXPECT_EQ(bench({"--morph-band", "2", "--draw", "multi"}).exit_code, 2);
+  EXPECT_EQ(bench({"--morph-band", "1"}).exit_code, 2);
+  EXPECT_EQ(run_tool({"bench", path("m.vfm"), "--morph-band", "2"}).exit_code, 2);
+}
+
 }  // namespace
 }  // namespace varifold
