@@ -4,39 +4,28 @@
 Builds patch trees with the command-line TOOL, flies along camera paths with `varifold bench`, and
 prints the tables. All numbers but times are the same on any machine.
 """
-import json
 import os
-import subprocess
 import sys
 import tempfile
 
+from tool import Tool
 
-class Tool:
-    def __init__(self, path, folder):
-        self.path, self.folder = path, folder
 
-    def __call__(self, *arguments):
-        done = subprocess.run([self.path, *arguments], check=True, capture_output=True, text=True)
-        return done.stdout
+def build(tool, mesh, triangles):
+    name = f"{os.path.basename(mesh)}.{triangles}"
+    return tool.build(name, mesh, "--patch-triangles", str(triangles))[0]
 
-    def file(self, name):
-        return os.path.join(self.folder, name)
 
-    def build(self, mesh, triangles):
-        model = self.file(f"{os.path.basename(mesh)}.{triangles}.vfm")
-        self("build", "patchtree", mesh, "--patch-triangles", str(triangles), "-o", model)
-        return model
+def dive(tool, frames):
+    path = tool.file(f"dive{frames}.json")
+    tool("generate", "path", "dive", "--frames", str(frames), "-o", path)
+    return path
 
-    def dive(self, frames):
-        path = self.file(f"dive{frames}.json")
-        self("generate", "path", "dive", "--frames", str(frames), "-o", path)
-        return path
 
-    def fly(self, model, path, pixels, size, band):
-        options = ["--morph-band", str(band)] if band else []
-        out = self("bench", model, "--test", "camera", "--path", path, "--pixels", str(pixels), "--size",
-                   size, "--json", *options)
-        return json.loads(out)["results"][0]
+def fly(tool, model, path, pixels, size, band):
+    options = ["--morph-band", str(band)] if band else []
+    return tool.json("bench", model, "--test", "camera", "--path", path, "--pixels", str(pixels),
+                     "--size", size, *options)["results"][0]
 
 
 def spread(values, form):
@@ -46,14 +35,14 @@ def spread(values, form):
 
 def turned(tool, planet, meshes):
     """What blending turns over, by the width of the band."""
-    path = tool.dive(60)
-    models = [tool.build(mesh, size)
+    path = dive(tool, 60)
+    models = [build(tool, mesh, size)
               for mesh in (planet, os.path.join(meshes, "armadillo.ply"),
                            os.path.join(meshes, "bunny.ply")) for size in (100, 500)]
     lines = ["| band | vertices on their way | triangles turned, per million | seen, over 0.05 pixels, a frame |",
              "|---|---|---|---|"]
     for band in (1.1, 1.25, 1.5, 2):
-        told = [tool.fly(model, path, pixels, "1920x1080", band)
+        told = [fly(tool, model, path, pixels, "1920x1080", band)
                 for model in models for pixels in (0.5, 1.5, 4.5)]
         lines.append("| {} | {} % | {} | {} |".format(
             band, spread([100 * one["moving_vertices_part"] for one in told], "{:.0f}"),
@@ -66,14 +55,14 @@ def turned(tool, planet, meshes):
 
 def jumps(tool, planet):
     """How far vertices and surfaces jump from frame to frame, in pixels."""
-    model = tool.build(planet, 200)
+    model = build(tool, planet, 200)
     lines = ["| frames | tolerance | | vertices: 99 %, greatest | surface: 50 %, 99 %, greatest |",
              "|---|---|---|---|---|"]
     for frames in (300, 3000):
-        path = tool.dive(frames)
+        path = dive(tool, frames)
         for pixels in (3, 1):
             for band in (None, 1.25, 2):
-                one = tool.fly(model, path, pixels, "640x480", band)
+                one = fly(tool, model, path, pixels, "640x480", band)
                 lines.append("| {:,} | {} | {} | {:.2f}, {:.2f} | {:.2f}, {:.2f}, {:.2f} |".format(
                     frames, pixels, f"band {band}" if band else "plain", one["jump_pixels_p99"],
                     one["max_jump_pixels"], one["surface_jump_pixels_p50"],
@@ -91,4 +80,5 @@ def main():
             print("\n".join(table) + "\n", flush=True)
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -1,13 +1,13 @@
 // Fronts of patch trees for a number of triangles, measured against whole levels.
 #include <gtest/gtest.h>
 #include <tests/models/patch_tree/built_trees.h>
+#include <tests/models/patch_tree/tree_of.h>
 #include <tests/support/test_files.h>
 #include <varifold/io/mesh_file.h>
 #include <varifold/measure/surface_distance.h>
 #include <varifold/mesh/generators.h>
 #include <varifold/mesh/topology.h>
 #include <varifold/mesh/weld.h>
-#include <varifold/models/patch_tree/build.h>
 #include <varifold/models/patch_tree/instance.h>
 #include <cmath>
 
@@ -61,28 +61,20 @@ TEST(PatchBudget, FrontsAreNearerThanLevels) {
   }
 }
 
-std::shared_ptr<const PatchTree> tree_of(const TriangleMesh& mesh) {
-  PatchTreeOptions options;
-  options.triangles_per_patch = 40;
-  auto built = build_patch_tree(mesh, options);
-  EXPECT_TRUE(built);
-  return std::make_shared<const PatchTree>(std::move(built->tree));
-}
-
 TEST(PatchBudget, DetailGoesWhereTheSurfaceIsRough) {
   TriangleMesh mesh = plane({.triangles = 8000});
   mesh.normals.clear();
   mesh.texcoords.clear();
   for (Vec3& p : mesh.positions)
     if (p.x > 0) p.y += 0.05f * std::sin(40 * p.x) * std::sin(50 * p.z);
-  expect_nearer_than_levels(mesh, tree_of(mesh));
+  expect_nearer_than_levels(mesh, test::tree_of(mesh, 40));
 }
 
 TEST(PatchBudget, OfArmadillo) {
   VARIFOLD_REAL_MESH_OR_SKIP(path, "armadillo.ply");
   const auto read = read_mesh(path);
   ASSERT_TRUE(read);
-  expect_nearer_than_levels(read->mesh, tree_of(read->mesh));
+  expect_nearer_than_levels(read->mesh, test::tree_of(read->mesh, 40));
 }
 
 }  // namespace
