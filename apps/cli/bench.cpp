@@ -227,7 +227,11 @@ Result<Json> bench_model(const BenchCommand& command, const AnyModel& any, Bench
 }
 
 void add_row(const std::string& input, const Json& result, Report& report) {
-  if (result["test"] == "camera") return report.row(input, camera_row(result));
+  std::string uploads;
+  if (!result["uploaded_bytes_mean"].is_null())
+    uploads =
+        fmt::format(", {:.0f} bytes uploaded a frame", result["uploaded_bytes_mean"].get<double>());
+  if (result["test"] == "camera") return report.row(input, camera_row(result) + uploads);
   std::string text = fmt::format("{}: {} of extraction", result["kind"].get<std::string>(),
                                  format_seconds(result["seconds_extraction"].get<double>()));
   text +=
@@ -239,7 +243,7 @@ void add_row(const std::string& input, const Json& result, Report& report) {
   text += fmt::format(", {} indices in {} steps",
                       format_count(result["indices_submitted"].get<std::uint64_t>()),
                       format_count(result["steps"].get<std::uint64_t>()));
-  report.row(input, text);
+  report.row(input, text + uploads);
 }
 
 // Without a device, "auto" draws nothing.
