@@ -3,17 +3,22 @@
 #include <benchmark/benchmark.h>
 #include <benchmarks/bench_meshes.h>
 #include <benchmarks/benchmarks.h>
+#include <varifold/base/random.h>
 #include <varifold/models/patch_tree/build.h>
 #include <varifold/models/patch_tree/instance.h>
 #include <varifold/models/patch_tree/patch_draws.h>
 #include <varifold/render/headless_context.h>
 #include <varifold/render/renderer.h>
+#include <varifold/strip/cache_order.h>
+#include <varifold/strip/strip_measures.h>
 #include <varifold/view/camera_path.h>
 #include <varifold/view/known_paths.h>
 #include <chrono>
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <numeric>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -158,10 +163,74 @@ void go_round(State& state, const TreePointer& tree, const DrawCase& which) {
   if (which.is_drawn) state.counters["draw_us"] = per_frame(steps.draw);
 }
 
+// The corners of the leaves, patch by patch, with their triangles in random order.
+struct ShuffledPatches {
+  std::vector<std::uint16_t> corners;
+  struct Patch {
+    std::size_t first, count;
+    std::uint32_t vertices;
+  };
+  std::vector<Patch> patches;
+
+  explicit ShuffledPatches(const PatchTree& tree) {
+    Random random(1);
+    const PatchTreeData& data = tree.data();
+    for (std::uint32_t n = data.topology.first_of_level[tree.finest_level()]; n < tree.node_count();
+         ++n) {
+      const std::uint32_t first = data.offsets[n].triangle, count = tree.triangle_count_of(n);
+      std::vector<std::uint32_t> order(count);
+      std::iota(order.begin(), order.end(), first);
+      for (std::uint32_t i = count; i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);
+      patches.push_back({corners.size(), 3 * std::size_t{count}, tree.vertex_count_of(n)});
+      for (const std::uint32_t t : order)
+        for (std::size_t k = 0; k < 3; ++k) corners.push_back(data.corners[3 * std::size_t{t} + k]);
+    }
+  }
+  // Of a cache of 16 vertices, first in first out, empty at the begin of each patch.
+  [[nodiscard]] CacheMeasures measures() const {
+    CacheMeasures sum;
+    for (const Patch& patch : patches) {
+      const std::vector<std::uint32_t> indices(
+          corners.begin() + static_cast<std::ptrdiff_t>(patch.first),
+          corners.begin() + static_cast<std::ptrdiff_t>(patch.first + patch.count));
+      const DrawRange range{.index_count = static_cast<std::uint32_t>(patch.count)};
+      const CacheMeasures one = measure_cache(indices, {&range, 1}, 16);
+      sum.misses += one.misses;
+      sum.triangles += one.triangles;
+      sum.vertices += one.vertices;
+    }
+    return sum;
+  }
+};
+
+// Time and gain of ordering; an item is a triangle.
+void order_patches(State& state, const std::string& name, std::uint32_t per_patch) {
+  const ShuffledPatches shuffled(*tree_of(name, per_patch));
+  ShuffledPatches ordered = shuffled;
+  CacheOrder order;
+  for (auto _ : state) {
+    state.PauseTiming();
+    ordered.corners = shuffled.corners;
+    state.ResumeTiming();
+    for (const ShuffledPatches::Patch& patch : ordered.patches)
+      order.reorder(std::span(ordered.corners).subspan(patch.first, patch.count), patch.vertices);
+  }
+  const CacheMeasures before = shuffled.measures(), after = ordered.measures();
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(after.triangles));
+  state.counters["acmr_shuffled"] = before.acmr();
+  state.counters["acmr_ordered"] = after.acmr();
+  state.counters["vertices"] =
+      static_cast<double>(after.vertices) / static_cast<double>(after.triangles);
+}
+
 }  // namespace
 
 void register_patch_draws() {
   const std::string name = "planet";
+  for (const std::uint32_t per_patch : {128u, 512u, 1000u})
+    benchmark::RegisterBenchmark(("patch_cache_order/" + std::to_string(per_patch)).c_str(),
+                                 [=](State& state) { order_patches(state, "planet", per_patch); })
+        ->Unit(benchmark::kMillisecond);
   for (const std::uint32_t per_patch : {128u, 1000u}) {
     const auto add = [&](const DrawCase& which, bool arrays) {
       const std::string full =

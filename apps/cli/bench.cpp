@@ -1,13 +1,12 @@
 // varifold bench: how fast models change their level, and how fast the levels are drawn.
 #include <apps/cli/bench_camera.h>
+#include <apps/cli/bench_device.h>
 #include <apps/cli/bench_path.h>
 #include <apps/cli/commands.h>
 #include <apps/cli/input.h>
 #include <apps/cli/level_options.h>
 #include <fmt/format.h>
 #include <varifold/io/any_model.h>
-#include <varifold/render/headless_context.h>
-#include <varifold/render/renderer.h>
 #include <algorithm>
 #include <memory>
 #include <optional>
@@ -36,63 +35,12 @@ concept FollowsPlane = requires(InstanceOf<Model>& instance, const Vec3& vector)
   ModelKind<Model>::adapt_to_plane(instance, vector, vector);
 };
 
-/// Draws every step of a test into a small picture, so that submission counts more than pixels.
-class BenchDevice {
- public:
-  static Result<BenchDevice> create() {
-    auto context = HeadlessContext::create();
-    if (!context) return tl::unexpected(std::move(context.error()));
-    auto renderer = Renderer::create();
-    if (!renderer) return tl::unexpected(std::move(renderer.error()));
-    return BenchDevice(std::move(*context), std::move(*renderer));
-  }
-  [[nodiscard]] const std::string& name() const { return context_.description(); }
-
-  Result<void> look_at(std::span<const Vec3> points, bool call_per_strip) {
-    ViewOptions view;
-    view.width = view.height = 256;
-    const auto camera = make_camera(view, points);
-    if (!camera) return tl::unexpected(camera.error());
-    begin(*camera, call_per_strip);
-    return {};
-  }
-  /// A new model.
-  void begin(const Camera& camera, bool call_per_strip) {
-    camera_ = camera;
-    style_.call_per_strip = call_per_strip;
-    if (mesh_) renderer_.remove(*mesh_);
-    mesh_.reset();
-  }
-  Result<void> draw(const DrawList& list, const Camera& camera) {
-    camera_ = camera;
-    return draw(list);
-  }
-  /// Uploads what changed, draws, waits for the device.
-  Result<void> draw(const DrawList& list) {
-    if (mesh_) {
-      if (auto updated = renderer_.update(*mesh_, list); !updated)
-        return tl::unexpected(updated.error());
-    } else {
-      const auto mesh = renderer_.add(list);
-      if (!mesh) return tl::unexpected(mesh.error());
-      mesh_ = *mesh;
-    }
-    if (auto begun = renderer_.begin(camera_, {.samples = 1}); !begun) return begun;
-    if (auto drawn = renderer_.draw(*mesh_, list, style_); !drawn) return drawn;
-    renderer_.finish();
-    return {};
-  }
-
- private:
-  BenchDevice(HeadlessContext context, Renderer renderer)
-      : context_(std::move(context)), renderer_(std::move(renderer)) {}
-
-  HeadlessContext context_;
-  Renderer renderer_;
-  Camera camera_;
-  DrawStyle style_;
-  std::optional<GpuMesh> mesh_;
-};
+/// How a model is drawn where "auto" may have been asked for.
+template <class Model>
+std::string drawn_as(const BenchCommand& command) {
+  if (command.draw != "auto") return command.draw;
+  return DrawsPatches<Model> ? "indirect" : "multi";
+}
 
 /// One walk through a test.
 template <class Model>
@@ -100,13 +48,17 @@ class BenchWalk {
  public:
   BenchWalk(const BenchCommand& command, const std::shared_ptr<const Model>& model,
             BenchDevice* device)
-      : command_(command), model_(model), instance_(model), device_(device) {
+      : command_(command),
+        model_(model),
+        instance_(model),
+        lists_(model, command.camera.lists),
+        device_(device) {
     for (const Vec3& p : model_->attributes().positions) box_.add(p);
   }
 
   Result<Json> run() {
     instance_.go_to_level(model_->finest_level());
-    const DrawList first = instance_.draw_list();
+    const FrameList first = lists_.of(instance_);
     if (device_) {
       if (auto set = device_->look_at(model_->attributes().positions, command_.draw == "strips");
           !set)
@@ -125,7 +77,7 @@ class BenchWalk {
       } else {
         instance_.go_to_level(path[step]);
       }
-      const DrawList list = instance_.draw_list();
+      const FrameList list = lists_.of(instance_);
       const double extraction = watch.seconds(), drawn_before = drawing_;
       extraction_ += extraction;
       if (auto drawn = draw(list); !drawn) return tl::unexpected(drawn.error());
@@ -135,12 +87,15 @@ class BenchWalk {
   }
 
  private:
-  Result<void> draw(const DrawList& list) {
+  Result<void> draw(const FrameList& list) {
     if (!device_) return {};
     const Stopwatch watch;
-    auto drawn = device_->draw(list);
+    const auto drawn = device_->draw(list);
     drawing_ += watch.seconds();
-    return drawn;
+    if (!drawn) return tl::unexpected(drawn.error());
+    uploading_ += drawn->seconds;
+    uploaded_ += drawn->bytes;
+    return {};
   }
 
   // Along x, from before the model to behind it; what it has passed is coarse.
@@ -154,7 +109,7 @@ class BenchWalk {
   [[nodiscard]] bool is_plane() const { return command_.test.name == "plane"; }
 
   // A part of all steps, the first and the last among them.
-  void note(std::uint32_t step, const DrawList& list, double extraction, double drawing) {
+  void note(std::uint32_t step, const FrameList& list, double extraction, double drawing) {
     const SubmittedIndices sent = submitted_indices(list);
     indices_ += sent.indices;
     const std::uint32_t level = instance_.level();
@@ -190,11 +145,14 @@ class BenchWalk {
     return {{"kind", ModelKind<Model>::kName},
             {"test", command_.test.name},
             {"steps", command_.test.steps},
-            {"draw", device_ ? command_.draw : "none"},
+            {"draw", device_ ? drawn_as<Model>(command_) : "none"},
             {"device", device_ ? Json(device_->name()) : Json()},
             {"seconds_total", total},
             {"seconds_extraction", extraction_},
             {"seconds_drawing", device_ ? Json(drawing_) : Json()},
+            {"seconds_upload", device_ ? Json(uploading_) : Json()},
+            {"uploaded_bytes_mean",
+             device_ ? Json(static_cast<double>(uploaded_) / command_.test.steps) : Json()},
             {"extraction_share", total > 0 ? extraction_ / total : 0},
             {"collapses", collapses_},
             {"collapses_per_second", per_second},
@@ -208,9 +166,11 @@ class BenchWalk {
   const BenchCommand& command_;
   std::shared_ptr<const Model> model_;
   InstanceOf<Model> instance_;
+  FrameLists<Model> lists_;
   BenchDevice* device_;
   Box box_;
-  double extraction_ = 0, drawing_ = 0;
+  double extraction_ = 0, drawing_ = 0, uploading_ = 0;
+  std::uint64_t uploaded_ = 0;
   std::uint64_t collapses_ = 0, indices_ = 0;
   std::uint32_t before_ = model_->finest_level();
   FrontStatistics front_;  ///< of the last step of the plane test
@@ -227,7 +187,13 @@ void check_test(const BenchCommand& command, const std::string& input, const Any
         if (command.camera.paper_priority && !DrawsPatches<Model>)
           wrong_usage(input + ": --paper-priority is for patch trees, not for kind " +
                       ModelKind<Model>::kName);
-        if (command.camera.strips && !MakesStrips<Model>)
+        if (command.camera.morph_band && !DrawsPatches<Model>)
+          wrong_usage(input + ": --morph-band is for patch trees, not for kind " +
+                      ModelKind<Model>::kName);
+        if (command.draw == "indirect" && !DrawsPatches<Model>)
+          wrong_usage(input + ": --draw indirect is for patch trees, not for kind " +
+                      ModelKind<Model>::kName);
+        if (command.camera.lists.strips && !MakesStrips<Model>)
           wrong_usage(input + ": --strips makes strips of view-dependent meshes, not of kind " +
                       ModelKind<Model>::kName);
       },
@@ -240,13 +206,13 @@ Result<Json> bench_camera(const BenchCommand& command, const std::shared_ptr<con
   DrawFrame draw;
   if (device) {
     device->begin(Camera(), command.draw == "strips");
-    draw = [device](const DrawList& list, const Camera& camera) {
+    draw = [device](const FrameList& list, const Camera& camera) {
       return device->draw(list, camera);
     };
   }
   auto result = CameraWalk<Model>(command.camera, model).run(command.path, draw);
   if (!result) return result;
-  (*result)["draw"] = device ? command.draw : "none";
+  (*result)["draw"] = device ? drawn_as<Model>(command) : "none";
   (*result)["device"] = device ? Json(device->name()) : Json();
   return result;
 }
@@ -261,7 +227,11 @@ Result<Json> bench_model(const BenchCommand& command, const AnyModel& any, Bench
 }
 
 void add_row(const std::string& input, const Json& result, Report& report) {
-  if (result["test"] == "camera") return report.row(input, camera_row(result));
+  std::string uploads;
+  if (!result["uploaded_bytes_mean"].is_null())
+    uploads =
+        fmt::format(", {:.0f} bytes uploaded a frame", result["uploaded_bytes_mean"].get<double>());
+  if (result["test"] == "camera") return report.row(input, camera_row(result) + uploads);
   std::string text = fmt::format("{}: {} of extraction", result["kind"].get<std::string>(),
                                  format_seconds(result["seconds_extraction"].get<double>()));
   text +=
@@ -273,7 +243,7 @@ void add_row(const std::string& input, const Json& result, Report& report) {
   text += fmt::format(", {} indices in {} steps",
                       format_count(result["indices_submitted"].get<std::uint64_t>()),
                       format_count(result["steps"].get<std::uint64_t>()));
-  report.row(input, text);
+  report.row(input, text + uploads);
 }
 
 // Without a device, "auto" draws nothing.
@@ -284,7 +254,6 @@ Result<std::optional<BenchDevice>> make_device(BenchCommand& command) {
   if (command.draw == "none") return device;
   auto made = BenchDevice::create();
   if (made) {
-    if (command.draw == "auto") command.draw = "multi";
     device.emplace(std::move(*made));
     return device;
   }
@@ -325,12 +294,14 @@ void check_camera_test(const CLI::App& command, const BenchCommand& options) {
     if (options.camera.path.empty()) wrong_usage("--test camera needs a --path");
     if (options.camera.paper_priority && (!options.camera.triangles || options.camera.pixels))
       wrong_usage("--paper-priority has no unit: it needs --triangles, without --pixels");
+    if (options.camera.morph_band && (options.draw == "multi" || options.draw == "strips"))
+      wrong_usage("--morph-band: index arrays do not blend; it needs --draw indirect or none");
     if (command.count("--steps") > 0) wrong_usage("--steps: a camera has the frames of its path");
     return;
   }
   for (const char* const option :
        {"--path", "--pixels", "--triangles", "--size", "--per-frame", "--no-frustum",
-        "--no-orientation", "--strips", "--paper-priority"})
+        "--no-orientation", "--strips", "--paper-priority", "--morph-band"})
     if (command.count(option) > 0)
       wrong_usage(std::string(option) + " means nothing to --test " + options.test.name);
 }
@@ -367,14 +338,20 @@ void add_bench(CLI::App& app, CommandRunner& runner) {
   command
       ->add_option("--draw", options->draw,
                    "none: extraction alone; strips: a call for each strip; multi: one for all; "
-                   "auto: multi where there is a device, none for a camera")
-      ->check(CLI::IsMember({"auto", "none", "strips", "multi"}))
+                   "indirect: one for all patches of a tree, whose indices never change; auto: "
+                   "indirect or else multi where there is a device, none for a camera")
+      ->check(CLI::IsMember({"auto", "none", "strips", "multi", "indirect"}))
       ->capture_default_str()
       ->type_name("HOW");
   add_camera_test_options(*command, options->camera);
   runner.add_common(*command, options->common, false);
   runner.attach(*command, options->common, [options, command] {
     check_camera_test(*command, *options);
+    CameraTest& camera = options->camera;
+    if (camera.morph_band)
+      camera.lists.morphs =
+          camera.paper_priority ? PatchMeasure::kMeanSquared : PatchMeasure::kPixels;
+    camera.lists.arrays = options->draw == "multi" || options->draw == "strips";
     return run_bench(*options);
   });
 }

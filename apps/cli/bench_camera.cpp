@@ -56,6 +56,8 @@ Json frame_list(std::span<const CameraFrame> frames, bool is_drawn) {
                     {"collapses", frame.collapses},
                     {"forced_splits", frame.forced_splits},
                     {"moving_vertices", frame.moving},
+                    {"turned_triangles", frame.turned},
+                    {"turned_seen", frame.turned_seen},
                     {"tolerance_pixels", frame.tolerance},
                     {"indices_submitted", frame.indices},
                     {"strips", frame.measures.strips},
@@ -64,6 +66,8 @@ Json frame_list(std::span<const CameraFrame> frames, bool is_drawn) {
                     {"changed_bytes", frame.changed_bytes},
                     {"adapt_ms", 1e3 * frame.adapt_seconds},
                     {"draw_list_ms", 1e3 * frame.list_seconds},
+                    {"upload_ms", is_drawn ? Json(1e3 * frame.upload_seconds) : Json()},
+                    {"uploaded_bytes", is_drawn ? Json(frame.uploaded_bytes) : Json()},
                     {"drawing_ms", is_drawn ? Json(1e3 * frame.draw_seconds) : Json()},
                     {"jump_pixels", frame.jumps.vertex_pixels},
                     {"surface_jump_pixels", frame.jumps.surface_pixels}});
@@ -105,7 +109,7 @@ void add_lists(const CameraTest& test, std::span<const CameraFrame> frames, Json
   const auto triangles = [](const CameraFrame& f) { return f.measures.triangles; };
   const double all = std::max(1.0, sum_of(frames, triangles));
   const double strips = sum_of(frames, [](const auto& f) { return f.measures.strips; });
-  result["strips"] = test.strips;
+  result["strips"] = test.lists.strips;
   result["strips_mean"] = strips / static_cast<double>(frames.size());
   result["triangles_per_strip"] = strips > 0 ? Json(all / strips) : Json();
   const auto indices = [](const CameraFrame& f) { return f.measures.indices; };
@@ -147,16 +151,43 @@ void add_fronts(const CameraTest& test, std::span<const CameraFrame> frames, Jso
   result["goal_error_max"] = test.triangles ? Json(greatest(frames, off_goal)) : Json();
 }
 
+// Null where nothing is drawn. The first frame uploads all.
+void add_uploads(std::span<const CameraFrame> frames, bool is_drawn, Json& result) {
+  const auto later = frames.subspan(1);
+  std::vector<double> uploading, drawing;
+  for (const CameraFrame& frame : later) {
+    uploading.push_back(frame.upload_seconds);
+    drawing.push_back(frame.draw_seconds);
+  }
+  const double bytes = sum_of(later, [](const auto& f) { return f.uploaded_bytes; }) /
+                       std::max<double>(1, static_cast<double>(later.size()));
+  result["upload_ms_p50"] = is_drawn ? Json(1e3 * percentile(uploading, 0.5)) : Json();
+  result["uploaded_bytes_mean"] = is_drawn ? Json(bytes) : Json();
+  result["drawing_ms_p50"] = is_drawn ? Json(1e3 * percentile(drawing, 0.5)) : Json();
+}
+
 // Null where a model has no patches.
-void add_patches(std::span<const CameraFrame> frames, Json& result) {
+void add_patches(const CameraTest& test, std::span<const CameraFrame> frames, Json& result) {
   std::vector<double> seconds;
   for (const CameraFrame& frame : frames.subspan(1)) seconds.push_back(frame.from_roots_seconds);
   const double patches = sum_of(frames, [](const auto& f) { return f.patches; });
   if (patches == 0) {
-    for (const char* const key : {"patches_mean", "from_roots_ms_p50", "from_roots_ms_p99"})
+    for (const char* const key :
+         {"patches_mean", "from_roots_ms_p50", "from_roots_ms_p99", "morph_band",
+          "moving_vertices_part", "turned_per_million_triangles", "turned_seen_mean"})
       result[key] = Json();
     return;
   }
+  const auto part_of = [&](const auto& value, const auto& all) {
+    return sum_of(frames, value) / std::max(1.0, sum_of(frames, all));
+  };
+  result["morph_band"] = test.morph_band ? Json(*test.morph_band) : Json();
+  result["moving_vertices_part"] = part_of([](const auto& f) { return f.moving; },
+                                           [](const auto& f) { return f.drawn_vertices; });
+  result["turned_per_million_triangles"] = 1e6 * part_of([](const auto& f) { return f.turned; },
+                                                         [](const auto& f) { return f.triangles; });
+  result["turned_seen_mean"] = sum_of(frames, [](const auto& f) { return f.turned_seen; }) /
+                               static_cast<double>(frames.size());
   result["patches_mean"] = patches / static_cast<double>(frames.size());
   add_percentiles("from_roots_ms", seconds, result);
 }
@@ -190,7 +221,7 @@ void add_camera_test_options(CLI::App& command, CameraTest& test) {
       ->type_name("T")
       ->group(group);
   command
-      .add_flag("--strips", test.strips,
+      .add_flag("--strips", test.lists.strips,
                 "Draw triangle strips, made anew in each frame (view-dependent meshes)")
       ->group(group);
   command
@@ -211,6 +242,15 @@ void add_camera_test_options(CLI::App& command, CameraTest& test) {
       .add_flag("--paper-priority", test.paper_priority,
                 "Patch trees: by the mean squared distance over the squared distance to the eye, "
                 "with --triangles")
+      ->group(group);
+  command
+      .add_option(
+          "--morph-band", test.morph_band,
+          "Patch trees: vertices blend into the next coarser level from this many times the "
+          "tolerance down to it")
+      ->check(CLI::Range(1.01f, 16.0f))
+      ->check(finite_number())
+      ->type_name("B")
       ->group(group);
   command.add_flag("--no-frustum", test.no_frustum, "Full detail outside of the picture too")
       ->group(group);
@@ -245,9 +285,10 @@ Json camera_result(const CameraTest& test, const CameraPath& path,
               {"seconds_drawing", is_drawn ? Json(drawing) : Json()}};
   add_times(frames, result);
   add_fronts(test, frames, result);
-  add_patches(frames, result);
+  add_patches(test, frames, result);
   add_jumps(frames, result);
   add_lists(test, frames, result);
+  add_uploads(frames, is_drawn, result);
   result["indices_submitted"] =
       static_cast<std::uint64_t>(sum_of(frames, [](const auto& f) { return f.indices; }));
   result["frames_checksum"] = frames_checksum(frames);
@@ -282,12 +323,14 @@ std::string camera_row(const Json& result) {
   if (!result["patches_mean"].is_null())
     return fmt::format(
         "{}: {} frames, {:.0f} triangles in {:.0f} patches, {:.4f} ms a frame ({:.4f} at 99 %), "
-        "{:.4f} ms from the roots, {:.1f} splits and {:.1f} merges a frame",
+        "{:.4f} ms from the roots, {:.1f} splits and {:.1f} merges a frame, surface jumps {:.2f} "
+        "pixels at most",
         result["kind"].get<std::string>(), result["frames"].get<std::uint64_t>(),
         number("triangles_mean"), number("patches_mean"), number("adapt_ms_p50"),
         number("adapt_ms_p99"), number("from_roots_ms_p50"),
         number("splits") / std::max(1.0, number("frames") - 1),
-        number("collapses") / std::max(1.0, number("frames") - 1));
+        number("collapses") / std::max(1.0, number("frames") - 1),
+        number("max_surface_jump_pixels"));
   return fmt::format(
       "{}: {} frames, {:.0f} triangles, {:.3f} ms a frame ({:.3f} at 99 %), {:.1f} ns a vertex, "
       "{:.0f} splits and {:.0f} collapses a frame, surface jumps {:.2f} pixels at most",

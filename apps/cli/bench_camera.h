@@ -2,11 +2,13 @@
 #pragma once
 
 #include <apps/cli/context.h>
+#include <apps/cli/frame_lists.h>
 #include <apps/cli/level_options.h>
 #include <apps/cli/report.h>
 #include <varifold/base/result.h>
 #include <varifold/io/any_model.h>
 #include <varifold/measure/frame_jumps.h>
+#include <varifold/measure/patch_motion.h>
 #include <varifold/strip/strip_measures.h>
 #include <varifold/view/camera_path.h>
 #include <algorithm>
@@ -27,9 +29,10 @@ struct CameraTest {
   std::optional<PictureSize> size;
   std::uint32_t morph_frames = 0;
   bool per_frame = false;
-  bool strips = false;  ///< made anew for each frame
+  ListOptions lists;
   bool no_frustum = false, no_orientation = false;
-  bool paper_priority = false;  ///< of patch trees
+  bool paper_priority = false;      ///< of patch trees
+  std::optional<float> morph_band;  ///< of patch trees
 
   /// 1 where nothing is asked for; 0, as fine as the triangles allow, with --triangles alone.
   [[nodiscard]] float tolerance() const {
@@ -44,6 +47,8 @@ void add_camera_test_options(CLI::App& command, CameraTest& test);
 /// What happened at one frame.
 struct CameraFrame {
   double adapt_seconds = 0, list_seconds = 0, draw_seconds = 0;
+  double upload_seconds = 0;
+  std::uint64_t uploaded_bytes = 0;
   double from_roots_seconds = 0;  // of choosing the same front without the one before
   std::uint32_t patches = 0;
   std::uint32_t splits = 0, collapses = 0, forced_splits = 0, vertices = 0, triangles = 0;
@@ -54,6 +59,8 @@ struct CameraFrame {
   double acmr_16 = 0, acmr_24 = 0;  // first-in first-out caches of so many vertices
   std::uint64_t changed_bytes = 0;  // what a device has to be sent
   FrameJumps::Jumps jumps;
+  std::uint64_t drawn_vertices = 0;           // different ones, of patches
+  std::uint64_t turned = 0, turned_seen = 0;  // triangles that blending turns over
 };
 
 /// The results of a walk, as the format of the JSON has them.
@@ -79,18 +86,6 @@ template <UniformModel Model>
   return targets;
 }
 
-/// Instances of triangles that can be drawn as strips, too.
-template <class Model>
-concept MakesStrips = requires(InstanceOf<Model>& instance) {
-  { instance.draw_strips() } -> std::same_as<DrawList>;
-};
-
-/// Models of patches choose fronts from the roots, too.
-template <class Model>
-concept DrawsPatches = requires(const InstanceOf<Model>& instance) {
-  instance.front().draws();
-};
-
 /// Counts what a list draws and, after the lists of the frames before, what of it is new.
 class ListMeasures {
  public:
@@ -100,8 +95,14 @@ class ListMeasures {
   std::uint64_t vertices_ = 0, indices_ = 0;
 };
 
+/// What bringing the buffers of the device up to date took.
+struct Upload {
+  std::size_t bytes = 0;
+  double seconds = 0;
+};
+
 /// Draws a list as a camera sees it; empty where nothing is drawn.
-using DrawFrame = std::function<Result<void>(const DrawList&, const Camera&)>;
+using DrawFrame = std::function<Result<Upload>(const FrameList&, const Camera&)>;
 
 /// What part of a budget may stay unused in a frame.
 inline constexpr float kUnusedBudget = 0.004f;
@@ -138,19 +139,24 @@ class CameraWalk {
   Result<void> time(std::span<const Camera> cameras, const DrawFrame& draw,
                     std::vector<CameraFrame>& frames, std::size_t& instance_bytes) {
     InstanceOf<Model> instance(model_);
+    FrameLists<Model> lists(model_, test_.lists);
     for (std::size_t i = 0; i < cameras.size(); ++i) {
       CameraFrame& frame = frames[i];
       const Stopwatch adapting;
       frame = adapt(instance, cameras[i]);
       frame.adapt_seconds = adapting.seconds();
       const Stopwatch listing;
-      const DrawList list = list_of(instance);
+      FrameList list = lists.of(instance);
+      list.patch_style.morph = morph_of(cameras[i], frame.tolerance);
       frame.list_seconds = listing.seconds();
-      for (const DrawRange& range : list.ranges) frame.indices += range.index_count;
+      frame.indices = submitted_indices(list).indices;
       if (!draw) continue;
       const Stopwatch drawing;
-      if (auto drawn = draw(list, cameras[i]); !drawn) return drawn;
+      const auto drawn = draw(list, cameras[i]);
+      if (!drawn) return tl::unexpected(drawn.error());
       frame.draw_seconds = drawing.seconds();
+      frame.upload_seconds = drawn->seconds;
+      frame.uploaded_bytes = drawn->bytes;
     }
     instance_bytes = instance.bytes();
     return {};
@@ -170,11 +176,21 @@ class CameraWalk {
     }
   }
 
+  [[nodiscard]] PatchMeasure patch_measure() const {
+    return test_.paper_priority ? PatchMeasure::kMeanSquared : PatchMeasure::kPixels;
+  }
+
   [[nodiscard]] PatchFrontOptions patch_options() const {
     PatchFrontOptions options;
     options.limits = {test_.tolerance(), test_.triangles.value_or(kNone)};
-    if (test_.paper_priority) options.measure = PatchMeasure::kMeanSquared;
+    options.measure = patch_measure();
     return options;
+  }
+
+  [[nodiscard]] std::optional<PatchMorphRange> morph_of(const Camera& camera,
+                                                        float tolerance) const {
+    if (!test_.morph_band) return std::nullopt;
+    return morph_range(camera, patch_measure(), tolerance, *test_.morph_band);
   }
 
   [[nodiscard]] RefineCriteria criteria_of(const Camera& camera) const {
@@ -185,24 +201,44 @@ class CameraWalk {
     return criteria;
   }
 
-  DrawList list_of(InstanceOf<Model>& instance) const {
-    if constexpr (MakesStrips<Model>)
-      if (test_.strips) return instance.draw_strips();
-    return instance.draw_list();
-  }
-
   void measure(std::span<const Camera> cameras, std::vector<CameraFrame>& frames) {
     InstanceOf<Model> instance(model_);
     std::optional<FrameJumps> jumps;
     if constexpr (UniformModel<Model>) jumps.emplace(collapse_targets(*model_));
-    ListMeasures lists;
+    ListMeasures measures;
+    // Caches are those of the triangles, however they are drawn.
+    ListOptions options = test_.lists;
+    options.arrays = true;
+    FrameLists<Model> lists(model_, options);
     for (std::size_t i = 0; i < cameras.size(); ++i) {
       (void)adapt(instance, cameras[i]);
-      const DrawList list = list_of(instance);
-      lists.next(list, frames[i]);
+      const DrawList list = lists.of(instance).list;
+      measures.next(list, frames[i]);
       std::vector<std::uint32_t> vertices;
       if constexpr (NumbersVertices<Model>) vertices = instance.vertices_of_slots();
       if (jumps) frames[i].jumps = jumps->next(list, vertices, cameras[i]);
+    }
+    if constexpr (DrawsPatches<Model>) measure_patches(cameras, frames);
+  }
+
+  void measure_patches(std::span<const Camera> cameras, std::vector<CameraFrame>& frames) {
+    InstanceOf<Model> instance(model_);
+    ListOptions options = test_.lists;
+    options.arrays = false;
+    FrameLists<Model> lists(model_, options);
+    PatchMotion motion(model_);
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+      CameraFrame& frame = frames[i];
+      const float tolerance = adapt(instance, cameras[i]).tolerance;
+      const PatchDrawList list = *lists.of(instance).patches;
+      const auto told = motion.next(list, morph_of(cameras[i], tolerance), cameras[i]);
+      frame.jumps = told.jumps;
+      frame.moving = static_cast<std::uint32_t>(told.moving);
+      frame.drawn_vertices = told.vertices;
+      frame.turned = told.turned;
+      frame.turned_seen = told.turned_seen;
+      if (!test_.lists.arrays)
+        frame.changed_bytes = list.changed_draws.size() * sizeof(PatchDrawCommand);
     }
   }
 

@@ -72,7 +72,8 @@ CommandResult extract_from(const ExtractCommand& command, const std::shared_ptr<
   if constexpr (requires { instance.collapsed_triangles(); })
     report.count("collapsed_triangles", "collapsed at borders", instance.collapsed_triangles());
   if (join) report_strips(level.strips, report);
-  if (!chosen.is_front) report.length("error", "error", model->error(chosen.level));
+  if (chosen.error) report.length("error", "error", *chosen.error);
+  report_budget(command.level, chosen, report);
   if (camera) {
     report.length("pixel_error", "error in pixels", chosen.pixel_error);
     report.count("forced_splits", "forced splits", chosen.forced_splits);
@@ -109,7 +110,8 @@ void add_extract(CLI::App& app, CommandRunner& runner) {
   runner.add_common(*command, options->common, false);
   runner.attach(*command, options->common, [options] {
     if (options->level.empty() && options->places.empty())
-      wrong_usage("a LEVEL is needed: --lod, --triangles, --vertices, --error or --pixels");
+      wrong_usage(
+          "a LEVEL is needed: --lod, --level, --triangles, --vertices, --error or --pixels");
     check_level_options(options->level);
     static_cast<void>(strip_join(options->strips, options->output));
     options->has_view = options->view.eye || !options->view.path.empty() || options->level.pixels;

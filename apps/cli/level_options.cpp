@@ -223,7 +223,12 @@ void add_level_options(CLI::App& command, LevelOptions& options) {
       ->check(finite_number())
       ->type_name("F")
       ->group(group);
-  command.add_option("--triangles", options.triangles, "At most so many triangles")
+  command.add_option("--level", options.level, "The level of this number; 0 = base")
+      ->type_name("K")
+      ->group(group);
+  command
+      .add_option("--triangles", options.triangles,
+                  "At most so many triangles; of a patch tree the mixture of levels of least error")
       ->type_name("N")
       ->group(group);
   command.add_option("--vertices", options.vertices, "At most so many vertices")
@@ -245,10 +250,11 @@ void add_level_options(CLI::App& command, LevelOptions& options) {
 
 void check_level_options(const LevelOptions& options) {
   const int asked = (options.lod ? 1 : 0) + (options.vertices ? 1 : 0) + (options.error ? 1 : 0) +
-                    (options.pixels || options.triangles ? 1 : 0);
+                    (options.level ? 1 : 0) + (options.pixels || options.triangles ? 1 : 0);
   if (asked > 1)
     wrong_usage(
-        "one LEVEL only: --lod, --triangles, --vertices, --error or --pixels (with --triangles)");
+        "one LEVEL only: --lod, --level, --triangles, --vertices, --error or --pixels (with "
+        "--triangles)");
 }
 
 void warn_of_base(const std::string& input, const LevelOptions& options,

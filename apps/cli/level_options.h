@@ -1,6 +1,8 @@
 // Which level of a model, seen from where: the LEVEL of the command line.
 #pragma once
 
+#include <apps/cli/context.h>
+#include <apps/cli/report.h>
 #include <varifold/base/result.h>
 #include <varifold/io/any_model.h>
 #include <varifold/models/common/uniform_model.h>
@@ -16,6 +18,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace varifold::cli {
 
@@ -64,9 +67,11 @@ void add_place_options(CLI::App& command, PlaceOptions& options);
 
 struct LevelOptions {
   std::optional<double> lod, error, pixels;
-  std::optional<std::uint32_t> triangles, vertices;
+  std::optional<std::uint32_t> triangles, vertices, level;
 
-  [[nodiscard]] bool empty() const { return !lod && !error && !pixels && !triangles && !vertices; }
+  [[nodiscard]] bool empty() const {
+    return !lod && !error && !pixels && !triangles && !vertices && !level;
+  }
 };
 void add_level_options(CLI::App& command, LevelOptions& options);
 /// Wrong usage where several levels are asked for that do not go together.
@@ -81,8 +86,9 @@ void warn_of_base(const std::string& input, const LevelOptions& options,
 
 struct ChosenLevel {
   std::uint32_t level = 0;
-  float pixel_error = 0;  ///< of the level, where there is a camera
-  bool is_front = false;  ///< levels differ from place to place; `level` says nothing
+  float pixel_error = 0;       ///< of the level, where there is a camera
+  std::optional<float> error;  ///< in model units, where it does not depend on a view
+  bool is_front = false;       ///< levels differ from place to place; `level` says nothing
   std::uint32_t forced_splits = 0, triangles = 0;
 };
 
@@ -93,11 +99,18 @@ struct ChosenLevel {
 template <LeveledModel Model>
 [[nodiscard]] ChosenLevel choose_level(const Model& model, const LevelOptions& options,
                                        const Camera* camera) {
-  ChosenLevel chosen{model.finest_level(), 0};
+  ChosenLevel chosen{model.finest_level()};
+  if (options.level) {
+    if (*options.level > model.finest_level())
+      wrong_usage("--level: the levels of this model are 0 to " +
+                  std::to_string(model.finest_level()));
+    chosen.level = *options.level;
+  }
   if (options.lod) chosen.level = model.level_for_fraction(static_cast<float>(*options.lod));
   if (options.vertices) chosen.level = model.level_for_vertices(*options.vertices);
   if (options.error) chosen.level = model.level_for_error(static_cast<float>(*options.error));
   if (options.triangles) chosen.level = model.level_for_triangles(*options.triangles);
+  chosen.error = model.error(chosen.level);
   if (!camera || model.attributes().positions.empty()) return chosen;
 
   const PixelScale scale(*camera);
@@ -106,8 +119,14 @@ template <LeveledModel Model>
     const float error = scale.error_of(static_cast<float>(*options.pixels), nearest);
     chosen.level = std::min(chosen.level, model.level_for_error(error));
   }
-  chosen.pixel_error = scale.pixels_of(model.error(chosen.level), nearest);
+  chosen.error = model.error(chosen.level);
+  chosen.pixel_error = scale.pixels_of(*chosen.error, nearest);
   return chosen;
+}
+
+/// Whether a budget of triangles was not met: even the base has more.
+inline void report_budget(const LevelOptions& options, const ChosenLevel& chosen, Report& report) {
+  if (options.triangles) report.set("over_budget", chosen.triangles > *options.triangles);
 }
 
 /// Whether levels may follow the view: a camera was placed, or pixels were asked for.
@@ -125,8 +144,27 @@ template <HasFronts Model>
   return front.triangles == found.triangles ? front.forced_splits : found.forced_splits;
 }
 
+/// Models that have a front of least error for a number of triangles, beside whole levels.
+template <class Model>
+concept FindsLeastError = requires(InstanceOf<Model>& instance, std::uint32_t number) {
+  instance.go_to_triangles(number);
+};
+
+template <FindsLeastError Model>
+[[nodiscard]] ChosenLevel go_to_least_error(InstanceOf<Model>& instance, std::uint32_t triangles,
+                                            const Camera* camera) {
+  const FrontStatistics front = instance.go_to_triangles(triangles).statistics;
+  ChosenLevel chosen{0, 0, front.tolerance, true, front.forced_splits, front.triangles};
+  const std::vector<Vec3>& points = instance.model().attributes().positions;
+  if (camera && !points.empty())
+    chosen.pixel_error =
+        PixelScale(*camera).pixels_of(front.tolerance, nearest_point(points, camera->eye));
+  return chosen;
+}
+
 /// Takes an instance to what is asked for: a level, or, for models whose levels may differ from
-/// place to place, the front that the places and, if `by_view`, the camera ask for.
+/// place to place, the front that the places and, if `by_view`, the camera ask for, or else the
+/// one of least error where the model finds that.
 template <class Model>
 [[nodiscard]] ChosenLevel go_to_choice(InstanceOf<Model>& instance, const LevelOptions& options,
                                        const PlaceOptions& places, const Camera* camera,
@@ -144,13 +182,16 @@ template <class Model>
       const float error = front.tolerance < RefineCriteria::kFullDetail
                               ? front.tolerance
                               : std::numeric_limits<float>::infinity();
-      return {0, error, true, front.forced_splits, front.triangles};
+      return {0, error, {}, true, front.forced_splits, front.triangles};
     }
   } else if (!places.empty()) {
     wrong_usage(std::string("--sphere, --plane and --light are for models with fronts (strips, "
                             "vdpm, patchtree), not ") +
                 ModelKind<Model>::kName);
   }
+  if constexpr (FindsLeastError<Model>)
+    if (options.triangles && *options.triangles < model.triangle_count(model.finest_level()))
+      return go_to_least_error<Model>(instance, *options.triangles, camera);
   ChosenLevel chosen = choose_level(model, options, camera);
   instance.go_to_level(chosen.level);
   chosen.triangles = model.triangle_count(chosen.level);

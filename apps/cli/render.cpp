@@ -1,8 +1,10 @@
 // varifold render: a picture of a mesh, or of a level of a model.
 #include <apps/cli/commands.h>
+#include <apps/cli/frame_lists.h>
 #include <apps/cli/input.h>
 #include <apps/cli/level_options.h>
 #include <apps/cli/picture.h>
+#include <varifold/measure/patch_motion.h>
 #include <varifold/render/colors.h>
 #include <varifold/render/mesh_draw_list.h>
 #include <algorithm>
@@ -21,7 +23,8 @@ struct RenderCommand {
   PlaceOptions places;
   std::string input, output, color = "auto";
   bool flat = false, wireframe = false, cull = false, no_occlusion = false;
-  bool no_border_switch = false;
+  bool no_border_switch = false, arrays = false, morph = false;
+  float morph_band = PatchMorphRange().band;
   float wire_width = 1;
   int supersampling = 2;
 };
@@ -41,12 +44,13 @@ ColorMode color_mode(const std::string& name, const TriangleMesh& mesh) {
   if (name == "vertex") return ColorMode::kVertexColor;
   if (name == "level") return ColorMode::kLevel;
   if (name == "strip") return ColorMode::kStrip;
+  if (name == "patch") return ColorMode::kPatch;
   return automatic_color(mesh);
 }
 
 // What is drawn: a list, and the mesh whose materials and bounds it has.
 struct Scene {
-  DrawList list;
+  FrameList drawn;
   const TriangleMesh* mesh = nullptr;
   std::uint64_t triangles = 0;
   std::span<const std::uint32_t> patches;  // per range, where a model has patches
@@ -58,7 +62,7 @@ struct PatchColors {
   std::vector<Vec4> colors;
 
   explicit PatchColors(const Scene& scene)
-      : ranges(scene.list.ranges.begin(), scene.list.ranges.end()) {
+      : ranges(scene.drawn.list.ranges.begin(), scene.drawn.list.ranges.end()) {
     for (std::size_t r = 0; r < ranges.size(); ++r) {
       if (r == 0 || scene.patches[r] != scene.patches[r - 1])
         colors.emplace_back(linear_from_srgb(strip_color(scene.patches[r])), 1);
@@ -74,6 +78,8 @@ CommandResult render_scene(const RenderCommand& command, const Scene& scene, Rep
   DrawStyle style;
   style.shading = command.flat ? Shading::kFlat : Shading::kSmooth;
   style.color_mode = color_mode(command.color, *scene.mesh);
+  const bool has_patches = scene.drawn.patches || !scene.patches.empty();
+  if (style.color_mode == ColorMode::kStrip && has_patches) style.color_mode = ColorMode::kPatch;
   style.back_faces = command.cull ? BackFaces::kCulled : BackFaces::kTinted;
   style.wireframe = command.wireframe;
   style.wire_width = command.wire_width;
@@ -83,9 +89,9 @@ CommandResult render_scene(const RenderCommand& command, const Scene& scene, Rep
   }
   const MeshDrawList materials(*scene.mesh);
   style.material_colors = materials.material_colors();
-  DrawList list = scene.list;
+  DrawList list = scene.drawn.list;
   std::optional<PatchColors> patch_colors;
-  if (command.color == "patch") {
+  if (style.color_mode == ColorMode::kPatch && !scene.drawn.patches) {
     patch_colors.emplace(scene);
     list.ranges = patch_colors->ranges;
     style.color_mode = ColorMode::kMaterial;
@@ -97,8 +103,11 @@ CommandResult render_scene(const RenderCommand& command, const Scene& scene, Rep
   painter->options().supersampling = command.supersampling;
   painter->options().ambient_occlusion = !command.no_occlusion;
   const Stopwatch watch;
-  if (auto painted = painter->paint(list, *camera, style, output); !painted)
-    return tl::unexpected(painted.error());
+  auto painted =
+      scene.drawn.patches
+          ? painter->paint({*scene.drawn.patches, style, scene.drawn.patch_style}, *camera, output)
+          : painter->paint(list, *camera, style, output);
+  if (!painted) return tl::unexpected(painted.error());
   report.count("triangles", "triangles", scene.triangles);
   report.set("width", camera->width);
   report.set("height", camera->height);
@@ -114,27 +123,44 @@ CommandResult render_mesh(const RenderCommand& command, const std::filesystem::p
   if (command.color == "level" || command.color == "strip" || command.color == "patch")
     wrong_usage(command.input + ": --color " + command.color + " needs a model");
   if (command.no_border_switch) wrong_usage(command.input + ": --no-border-switch needs a model");
+  if (command.arrays) wrong_usage(command.input + ": --arrays needs a model");
+  if (command.morph) wrong_usage(command.input + ": --morph needs a model");
   auto imported = read_surface(input);
   if (!imported) return tl::unexpected(imported.error());
   const TriangleMesh mesh = without_unused_vertices(imported->mesh);
-  return render_scene(command, {MeshDrawList(mesh).list(), &mesh, mesh.triangle_count(), {}},
-                      report);
+  return render_scene(
+      command, {{MeshDrawList(mesh).list(), {}, {}}, &mesh, mesh.triangle_count(), {}}, report);
 }
 
-// Models that are drawn patch by patch, with borders that are switched.
+// Wrong usage of what is for patch trees alone.
 template <class Model>
-inline constexpr bool kHasPatches = requires(InstanceOf<Model>& instance) {
-  instance.set_switches(true);
-  instance.nodes_of_ranges();
-};
+void check_patch_options(const RenderCommand& command) {
+  if constexpr (DrawsPatches<Model>) return;
+  for (const auto& [is_used, option] :
+       {std::pair{command.color == "patch", "--color patch"},
+        std::pair{command.no_border_switch, "--no-border-switch"},
+        std::pair{command.arrays, "--arrays"}, std::pair{command.morph, "--morph"}})
+    if (is_used)
+      wrong_usage(command.input + ": " + option + " is for patch trees, not for kind " +
+                  ModelKind<Model>::kName);
+}
+
+// Vertices of the front of a view go towards those of the next coarser level.
+void blend(const RenderCommand& command, const Camera& camera, const ChosenLevel& chosen,
+           const PatchTree& tree, Scene& scene, Report& report) {
+  const auto range =
+      morph_range(camera, PatchMeasure::kPixels, chosen.pixel_error, command.morph_band);
+  scene.drawn.patch_style.morph = range;
+  PatchMotion motion(std::shared_ptr<const PatchTree>(std::shared_ptr<void>(), &tree));
+  const PatchMotion::Frame told = motion.next(*scene.drawn.patches, range, camera);
+  report.count("moving_vertices", "vertices on their way", told.moving);
+  report.count("turned_triangles", "triangles turned over", told.turned);
+}
 
 template <class Model>
 CommandResult render_level(const RenderCommand& command, const std::shared_ptr<const Model>& model,
                            Report& report) {
-  if (!kHasPatches<Model> && (command.color == "patch" || command.no_border_switch))
-    wrong_usage(command.input +
-                (command.color == "patch" ? ": --color patch" : ": --no-border-switch") +
-                " is for patch trees, not for kind " + ModelKind<Model>::kName);
+  check_patch_options<Model>(command);
   const TriangleMesh& full = model->attributes();
   const auto camera = make_camera(command.view, full.positions);
   if (!camera) return tl::unexpected(camera.error());
@@ -143,20 +169,21 @@ CommandResult render_level(const RenderCommand& command, const std::shared_ptr<c
                                                  asks_for_view(command.view, command.level));
   warn_of_base(command.input, command.level, model->vertex_count(0), model->triangle_count(0));
   report.text("kind", "kind", ModelKind<Model>::kName);
-  if (!chosen.is_front) {
-    report.count("level", "level", chosen.level);
-    report.length("error", "error", model->error(chosen.level));
-  }
+  if (!chosen.is_front) report.count("level", "level", chosen.level);
+  if (chosen.error) report.length("error", "error", *chosen.error);
+  report_budget(command.level, chosen, report);
   report.length("pixel_error", "error in pixels", chosen.pixel_error);
-  Scene scene{{}, &full, chosen.triangles, {}};
-  if constexpr (kHasPatches<Model>) {
-    instance.set_switches(!command.no_border_switch);
-    scene.list = instance.draw_list();
+  ListOptions how{.arrays = command.arrays};
+  if (command.morph) how.morphs = PatchMeasure::kPixels;
+  FrameLists<Model> lists(model, how);
+  if constexpr (DrawsPatches<Model>) instance.set_switches(!command.no_border_switch);
+  Scene scene{lists.of(instance), &full, chosen.triangles, {}};
+  if constexpr (DrawsPatches<Model>) {
+    scene.drawn.patch_style.switch_borders = !command.no_border_switch;
     scene.patches = instance.nodes_of_ranges();
+    if (command.morph) blend(command, *camera, chosen, *model, scene, report);
     report.count("patches", "patches", instance.front().draws().draws().size());
     report.count("collapsed_triangles", "collapsed at borders", instance.collapsed_triangles());
-  } else {
-    scene.list = instance.draw_list();
   }
   return render_scene(command, scene, report);
 }
@@ -166,6 +193,15 @@ CommandResult render_model(const RenderCommand& command, const std::filesystem::
   const auto any = read_any_model(input);
   if (!any) return tl::unexpected(any.error());
   return std::visit([&](const auto& model) { return render_level(command, model, report); }, *any);
+}
+
+void check_morph(const RenderCommand& command) {
+  if (!command.morph) return;
+  if (command.arrays) wrong_usage("--morph: index arrays do not blend; leave out --arrays");
+  if (!command.places.empty())
+    wrong_usage("--morph blends by what the view needs, not by --sphere, --plane or --light");
+  if (!asks_for_view(command.view, command.level))
+    wrong_usage("--morph needs a view: --pixels, or --triangles with --eye or --path");
 }
 
 CommandResult run_render(const RenderCommand& command) {
@@ -211,6 +247,19 @@ void add_render(CLI::App& app, CommandRunner& runner) {
   command->add_flag("--cull", options->cull, "Leave out what is seen from behind (else red)");
   command->add_flag("--no-border-switch", options->no_border_switch,
                     "Patch trees: leave the cracks where levels meet; back faces are bright red");
+  command->add_flag("--morph", options->morph,
+                    "Patch trees: blend vertices between levels, for the view of --pixels or "
+                    "--triangles");
+  command
+      ->add_option("--morph-band", options->morph_band,
+                   "With --morph: from this many times the tolerance down to it")
+      ->check(CLI::Range(1.01f, 16.0f))
+      ->check(finite_number())
+      ->needs("--morph")
+      ->capture_default_str()
+      ->type_name("B");
+  command->add_flag("--arrays", options->arrays,
+                    "Patch trees: draw index arrays, not commands over constant indices");
   command->add_flag("--no-occlusion", options->no_occlusion, "Without darkened creases");
   command->add_option("--supersampling", options->supersampling, "Shaded samples per axis")
       ->check(CLI::Range(1, 8))
@@ -219,6 +268,7 @@ void add_render(CLI::App& app, CommandRunner& runner) {
   runner.add_common(*command, options->common, false);
   runner.attach(*command, options->common, [options] {
     check_level_options(options->level);
+    check_morph(*options);
     return run_render(*options);
   });
 }

@@ -4,34 +4,14 @@
 Builds patch trees with the command-line TOOL and writes OUT/figure_*.png and OUT/results.md. The
 numbers of the figures are those of [Birkholz2007]. Figure 2 and 4 of the paper are drawings.
 """
-import json
 import os
-import subprocess
 import sys
 import tempfile
 
+from tool import Tool
+
 PATCH = "100"  # triangles, as in the paper
 SIZE = ["--size", "400x300"]
-
-
-class Tool:
-    def __init__(self, path, folder):
-        self.path, self.folder = path, folder
-
-    def __call__(self, *arguments):
-        done = subprocess.run([self.path, *arguments], check=True, capture_output=True, text=True)
-        return done.stdout
-
-    def json(self, *arguments):
-        return json.loads(self(*arguments, "--json"))
-
-    def file(self, name):
-        return os.path.join(self.folder, name)
-
-    def build(self, name, mesh, *options):
-        model = self.file(name + ".vfm")
-        report = self.json("build", "patchtree", mesh, "-o", model, *options)
-        return model, report
 
 
 def figures(tool, meshes, out):
@@ -50,8 +30,8 @@ def figures(tool, meshes, out):
     picture("figure_1_smoothed", smooth, *ear)
 
     for step in range(4):
-        triangles = str(int(69451 / 4**step))
-        picture(f"figure_3_level_{step}", smooth, "--color", "patch", "--triangles", triangles)
+        level = str(bunny_report["levels"] - 1 - 2 * step)
+        picture(f"figure_3_level_{step}", smooth, "--color", "patch", "--level", level)
 
     near = ["--eye", "0.02,0.16,0.14", "--target", "-0.06,0.14,0", "--fovy", "60"]
     picture("figure_5_cracks", smooth, *near, "--pixels", "1.5", "--no-border-switch")
@@ -95,7 +75,7 @@ def main():
     path, meshes, out = sys.argv[1:]
     os.makedirs(out, exist_ok=True)
     with tempfile.TemporaryDirectory() as folder:
-        tool = Tool(os.path.abspath(path), folder)
+        tool = Tool(path, folder)
         trees = figures(tool, meshes, out)
         results(tool, trees, out)
 

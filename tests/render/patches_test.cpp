@@ -1,10 +1,10 @@
 // Patches drawn by one call against their triangles drawn as a mesh.
 #include <gtest/gtest.h>
 #include <tests/models/patch_tree/tree_fronts.h>
+#include <tests/models/patch_tree/tree_of.h>
 #include <tests/render/pixel_counts.h>
 #include <tests/render/scenes.h>
 #include <varifold/mesh/generators.h>
-#include <varifold/models/patch_tree/build.h>
 #include <varifold/models/patch_tree/front.h>
 #include <varifold/models/patch_tree/patch_draws.h>
 #include <varifold/render/colors.h>
@@ -15,15 +15,8 @@
 namespace varifold {
 namespace {
 
+using test::tree_of;
 using TreePointer = std::shared_ptr<const PatchTree>;
-
-TreePointer tree_of(const TriangleMesh& mesh, std::uint32_t triangles) {
-  PatchTreeOptions options;
-  options.triangles_per_patch = triangles;
-  auto built = build_patch_tree(mesh, options);
-  EXPECT_TRUE(built.has_value());
-  return std::make_shared<const PatchTree>(std::move(built->tree));
-}
 
 TreePointer planet_tree(std::uint32_t per_patch) {
   PlanetOptions options;

@@ -51,7 +51,6 @@ class FrameJumps {
     std::vector<std::uint32_t> first_triangle, triangles;  // around each drawn vertex
     std::vector<std::uint8_t> is_facing;
   };
-  class Projection;
 
   void read(const DrawList& list, std::span<const std::uint32_t> vertices);
   void add_triangle(const DrawList& list, std::span<const std::uint32_t> vertices,

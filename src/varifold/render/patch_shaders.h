@@ -8,7 +8,7 @@
 
 namespace varifold::gl {
 
-/// Of the buffers; the order of PatchBuffers::Storage.
+/// Behind kSurfaceOutput (shaders.h). The buffers stand in the order of PatchBuffers::Storage.
 inline constexpr std::string_view kPatchVertexShader = R"(
 layout(location = 0) in uvec4 words;  // first vertex of the parent's patch, mask, material, patch
 layout(location = 1) in float level;
@@ -20,9 +20,6 @@ layout(std430, binding = 3) readonly buffer Remap { uint remap[]; };
 layout(std430, binding = 4) readonly buffer Morphs { uvec2 morphs[]; };  // target, bits of error
 layout(std430, binding = 5) readonly buffer Materials { vec4 material_colors[]; };  // linear
 
-uniform mat4 placement;
-uniform mat4 rotation_projection;  // from eye-relative world directions to clip space
-uniform vec3 eye;
 uniform bool switch_borders;
 uniform bool has_normals;
 uniform int color_mode;   // the order of ColorMode
@@ -34,14 +31,6 @@ uniform float morph_near;
 uniform float morph_scale;
 uniform float morph_tolerance;
 uniform float morph_band;
-
-out Surface {
-  vec3 position;  // relative to the eye
-  vec3 normal;
-  vec3 color;     // sRGB
-} surface;
-
-invariant gl_Position;
 
 vec3 position_of(uint v) {
   return vec3(positions[3u * v], positions[3u * v + 1u], positions[3u * v + 2u]);

@@ -149,7 +149,7 @@ Result<Renderer> Renderer::create() {
   if (epoxy_gl_version() < 45)
     return fail(ErrorKind::kFailed, "renderer: needs a current context with OpenGL 4.5");
   auto impl = std::make_unique<Impl>();
-  const gl::ShaderStage mesh_vertex{GL_VERTEX_SHADER, gl::kMeshVertexShader};
+  const gl::ShaderStage mesh_vertex{GL_VERTEX_SHADER, gl::kMeshVertexShader, gl::kSurfaceOutput};
   const gl::ShaderStage wire_geometry{GL_GEOMETRY_SHADER, gl::kWireGeometryShader};
   const auto fragment = [](std::string_view source, std::string_view defines) {
     return gl::ShaderStage{GL_FRAGMENT_SHADER, source, defines};

@@ -32,7 +32,7 @@ Result<void> Renderer::Impl::make_patch_programs() {
   if (blocks < static_cast<GLint>(PatchBuffers::kCount))
     return fail(ErrorKind::kUnsupported,
                 "renderer: vertex shaders of this device cannot read the buffers of patches");
-  const gl::ShaderStage vertex{GL_VERTEX_SHADER, gl::kPatchVertexShader};
+  const gl::ShaderStage vertex{GL_VERTEX_SHADER, gl::kPatchVertexShader, gl::kSurfaceOutput};
   const gl::ShaderStage geometry{GL_GEOMETRY_SHADER, gl::kWireGeometryShader};
   const gl::ShaderStage fragment{GL_FRAGMENT_SHADER, gl::kMeshFragmentShader};
   const gl::ShaderStage wire{GL_FRAGMENT_SHADER, gl::kMeshFragmentShader, "#define WIRE\n"};

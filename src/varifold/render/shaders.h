@@ -8,11 +8,8 @@
 
 namespace varifold::gl {
 
-inline constexpr std::string_view kMeshVertexShader = R"(
-layout(location = 0) in vec3 position;
-layout(location = 1) in vec3 normal;
-layout(location = 3) in vec4 color;
-
+// What stands before all vertex shaders of surfaces.
+inline constexpr std::string_view kSurfaceOutput = R"(
 uniform mat4 placement;
 uniform mat4 rotation_projection;  // from eye-relative world directions to clip space
 uniform vec3 eye;
@@ -24,6 +21,13 @@ out Surface {
 } surface;
 
 invariant gl_Position;
+)";
+
+// Behind kSurfaceOutput.
+inline constexpr std::string_view kMeshVertexShader = R"(
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 3) in vec4 color;
 
 void main() {
   surface.position = (placement * vec4(position, 1)).xyz - eye;

@@ -42,6 +42,7 @@ std::vector<std::uint32_t> by_priority(const PatchTopology& t, const std::vector
 float own_priority(const RefineCriteria& criteria, PatchMeasure measure, const PatchBounds& b) {
   if (measure == PatchMeasure::kPixels) return criteria.urgency({b.ball, b.cone, b.error});
   if (criteria.is_placed_on(b.ball, b.error)) return 1.5f * RefineCriteria::kFullDetail;
+  if (measure == PatchMeasure::kError) return b.error;
   if (!criteria.view) return 0;
   const ViewCriterion& view = *criteria.view;
   if (view.outside_weight == 0 && classify(view.frustum, b.ball) == Containment::kOutside) return 0;

@@ -213,6 +213,75 @@ TEST(PatchTreeInstance, AllocatesNothingOnceItHasShownAsMuch) {
   EXPECT_EQ(allocations, before);
 }
 
+// The greatest error of the patches that are drawn.
+float error_of(const PatchTree& tree, const std::vector<std::uint8_t>& is_split) {
+  float error = 0;
+  for (std::uint32_t node = 0; node < tree.node_count(); ++node)
+    if (is_in_front(tree.topology(), is_split, node))
+      error = std::max(error, tree.data().bounds[node].error);
+  return error;
+}
+
+// Triangles of the smallest legal front in which all nodes of at least that error are split.
+std::uint64_t triangles_below(const PatchTree& tree, float error) {
+  const PatchTopology& t = tree.topology();
+  std::vector<std::uint8_t> is_split(t.node_count(), 0);
+  for (std::uint32_t node = 0; node < t.node_count(); ++node)
+    is_split[node] = !t.is_leaf(node) && tree.data().bounds[node].error >= error ? 1 : 0;
+  // Parents have smaller numbers.
+  for (std::uint32_t node = t.node_count(); node-- > 0;) {
+    if (is_split[node] == 0 || t.parent[node] == kNone) continue;
+    is_split[t.parent[node]] = 1;
+    for (const std::uint32_t neighbor : t.neighbors_of(node)) is_split[t.parent[neighbor]] = 1;
+  }
+  std::uint64_t triangles = 0;
+  for (std::uint32_t node = 0; node < t.node_count(); ++node)
+    if (is_in_front(t, is_split, node)) triangles += tree.triangle_count_of(node);
+  return triangles;
+}
+
+TEST(PatchTreeInstance, FindsTheFrontOfLeastErrorForANumberOfTriangles) {
+  Random random(44);
+  int mixed = 0, better = 0;
+  for (const BuiltTree& built : built_trees()) {
+    const PatchTree& tree = *built.tree;
+    if (tree.node_count() == 0) continue;
+    SCOPED_TRACE(built.name);
+    PatchTreeInstance instance(built.tree);
+    const std::uint32_t most = tree.triangle_count(tree.finest_level());
+    std::vector<std::uint32_t> budgets{0, tree.triangle_count(0), most - 1, most, most + 1, kNone};
+    for (int i = 0; i < 20; ++i) budgets.push_back(random.below(most + 1));
+    for (std::uint32_t level = 0; level < tree.finest_level(); ++level)
+      budgets.push_back(tree.triangle_count(level));
+    for (const std::uint32_t budget : budgets) {
+      const PatchFrontResult found = instance.go_to_triangles(budget);
+      const std::vector<std::uint8_t> split = instance.split_flags();
+      ASSERT_TRUE(is_legal(tree.topology(), split));
+      const float error = error_of(tree, split);
+      EXPECT_EQ(found.statistics.tolerance, error) << budget;
+      EXPECT_EQ(found.statistics.triangles, instance.triangle_count());
+      EXPECT_EQ(found.is_over_budget, budget < tree.triangle_count(0));
+      if (found.is_over_budget) {
+        EXPECT_EQ(instance.triangle_count(), tree.triangle_count(0));
+        continue;
+      }
+      EXPECT_LE(instance.triangle_count(), budget);
+      const std::uint32_t level = tree.level_for_triangles(budget);
+      EXPECT_LE(error, tree.error(level));
+      if (error > 0) {
+        EXPECT_GT(triangles_below(tree, error), budget);
+      }
+      if (budget >= most) {
+        EXPECT_EQ(instance.level(), tree.finest_level());
+      }
+      mixed += instance.collapsed_triangles() > 0 ? 1 : 0;
+      better += error < tree.error(level) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(mixed, 40);
+  EXPECT_GT(better, 40);
+}
+
 TEST(PatchTree, FindsLevels) {
   for (const BuiltTree& built : built_trees()) {
     const PatchTree& tree = *built.tree;

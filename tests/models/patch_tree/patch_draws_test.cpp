@@ -1,9 +1,9 @@
 // Draw lists of patches: what they draw, what they change, and that blending leaves no crack.
 #include <gtest/gtest.h>
 #include <tests/models/patch_tree/tree_fronts.h>
+#include <tests/models/patch_tree/tree_of.h>
 #include <tests/support/meshes.h>
 #include <varifold/mesh/generators.h>
-#include <varifold/models/patch_tree/build.h>
 #include <varifold/models/patch_tree/front.h>
 #include <varifold/models/patch_tree/patch_draws.h>
 #include <varifold/view/patch_morph.h>
@@ -18,18 +18,11 @@
 namespace varifold {
 namespace {
 
+using test::tree_of;
 using TreePointer = std::shared_ptr<const PatchTree>;
 using Place = std::tuple<float, float, float>;
 
 Place place_of(const Vec3& p) { return {p.x + 0.0f, p.y + 0.0f, p.z + 0.0f}; }
-
-TreePointer tree_of(const TriangleMesh& mesh, std::uint32_t triangles) {
-  PatchTreeOptions options;
-  options.triangles_per_patch = triangles;
-  auto built = build_patch_tree(mesh, options);
-  EXPECT_TRUE(built.has_value());
-  return std::make_shared<const PatchTree>(std::move(built->tree));
-}
 
 TreePointer planet_tree(std::uint32_t triangles, std::uint32_t per_patch) {
   PlanetOptions options;

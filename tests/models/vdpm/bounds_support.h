@@ -5,11 +5,22 @@
 #include <varifold/models/vdpm/step_bounds.h>
 #include <varifold/simplify/simplify.h>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 namespace varifold::test {
+
+/// Radians.
+[[nodiscard]] inline double angle_between(const Vec3& a, const Vec3& b) {
+  const DVec3 p(a), q(b);
+  return std::atan2(glm::length(glm::cross(p, q)), glm::dot(p, q));
+}
+/// Of the axis to the rim, radians.
+[[nodiscard]] inline double angle_of(const NormalCone& cone) {
+  return std::atan2(double{cone.sine}, cone.cosine);
+}
 
 struct NamedSequence {
   std::string name;

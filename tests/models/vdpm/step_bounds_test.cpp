@@ -17,11 +17,8 @@
 namespace varifold {
 namespace {
 
-double angle_between(const Vec3& a, const Vec3& b) {
-  const DVec3 p(a), q(b);
-  return std::atan2(glm::length(glm::cross(p, q)), glm::dot(p, q));
-}
-double angle_of(const NormalCone& cone) { return std::atan2(double{cone.sine}, cone.cosine); }
+using test::angle_between;
+using test::angle_of;
 
 Vec3 normal_of(const std::array<Vec3, 3>& triangle) {
   return normalize_or_zero(glm::cross(triangle[1] - triangle[0], triangle[2] - triangle[0]));

@@ -8,11 +8,8 @@
 namespace varifold {
 namespace {
 
-double angle_between(const Vec3& a, const Vec3& b) {
-  const DVec3 p(a), q(b);
-  return std::atan2(glm::length(glm::cross(p, q)), glm::dot(p, q));
-}
-double angle_of(const NormalCone& cone) { return std::atan2(double{cone.sine}, cone.cosine); }
+using test::angle_between;
+using test::angle_of;
 
 // What the steps below in the tree ask for, entered into every one above, however far.
 struct Exact {

@@ -2,6 +2,7 @@
 
 #include <varifold/models/patch_tree/front_bits.h>
 #include <varifold/view/usable_view.h>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -45,7 +46,8 @@ bool FrontPriorities::set(const RefineCriteria& criteria, PatchMeasure measure) 
   const bool has_places =
       criteria.sphere || criteria.plane || !criteria.boxes.empty() || criteria.predicate != nullptr;
   const bool sees = criteria.view && is_usable(*criteria.view);
-  const bool plain = sees && !has_places && is_plain(*criteria.view);
+  const bool plain =
+      sees && !has_places && measure != PatchMeasure::kError && is_plain(*criteria.view);
   std::uint8_t parts = measure == PatchMeasure::kMeanSquared ? front_lanes::kMeanSquares : 0;
   front_lanes::Numbers numbers;
   if (plain) {
@@ -74,6 +76,8 @@ float FrontPriorities::evaluate_singly(const PatchBounds& bounds, float limit) c
     own = criteria_.urgency({bounds.ball, bounds.cone, bounds.error});
   } else if (criteria_.is_placed_on(bounds.ball, bounds.error)) {
     own = 1.5f * RefineCriteria::kFullDetail;
+  } else if (measure_ == PatchMeasure::kError) {
+    own = std::min(bounds.error, RefineCriteria::kFullDetail);
   } else if (criteria_.view) {
     own = mean_squared_priority(*criteria_.view, bounds);
   }

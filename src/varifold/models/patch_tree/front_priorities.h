@@ -18,11 +18,13 @@ namespace varifold {
 enum class PatchMeasure : std::uint8_t {
   kPixels,       ///< PatchBounds::error as seen from the eye, pixels
   kMeanSquared,  ///< PatchBounds::mean_squared by the squared distance, as in the paper; no unit
+  kError,        ///< PatchBounds::error, model units, whatever the view
 };
 
 /// The priority of a node is what the criteria say of its bounds, but not above that of its
 /// parent. It is not negative and not NaN. With kMeanSquared a view gives the paper's priority, 0
-/// for what is outside or turned away by the weights of the view, infinite inside the ball.
+/// for what is outside or turned away by the weights of the view, infinite inside the ball. With
+/// kError the places of full detail come first and all other nodes by their errors.
 ///
 /// Plain views (no light; weights of 0 or 1, silhouettes as everything else; no places) are
 /// computed for eight nodes at a time; all other criteria one by one, with the same results to the

@@ -35,6 +35,22 @@ PatchFrontResult PatchTreeInstance::adapt(const RefineCriteria& criteria,
   return result;
 }
 
+// Nodes are split in the order of their errors, each with what it requires. Whatever front has only
+// smaller errors than the node that did not fit has split that node, and so is over the budget.
+PatchFrontResult PatchTreeInstance::go_to_triangles(std::uint32_t max_triangles) {
+  if (model_->triangle_count(model_->finest_level()) <= max_triangles) {
+    go_to_level(model_->finest_level());  // nodes without an error, too
+    PatchFrontResult result;
+    result.statistics.vertices = vertex_count();
+    result.statistics.triangles = triangle_count();
+    return result;
+  }
+  PatchFrontOptions options;
+  options.limits = {0, max_triangles};
+  options.measure = PatchMeasure::kError;
+  return adapt(RefineCriteria(), options, true);
+}
+
 void PatchTreeInstance::set_switches(bool switches) { switches_ = switches; }
 
 std::uint32_t PatchTreeInstance::collapsed_triangles() const {

@@ -57,6 +57,12 @@ class PatchTreeInstance {
   PatchFrontResult adapt(const RefineCriteria& criteria, const PatchFrontOptions& options,
                          bool from_roots);
 
+  /// To a front of least error, whatever the view, with at most so many stored triangles: levels
+  /// may differ from place to place. No legal front within the budget has a smaller greatest
+  /// PatchBounds::error, which is what the result has as tolerance, and so none of whole levels
+  /// has; where all nodes fit, it is the finest level. The roots where even those are more.
+  PatchFrontResult go_to_triangles(std::uint32_t max_triangles);
+
   /// Without switches borders do not fit where levels meet: to show what they are for.
   void set_switches(bool switches);
 

@@ -17,7 +17,7 @@ std::uint32_t level_of(const PatchTopology& topology, std::uint32_t node) {
 }
 
 float length_of(const PatchBounds& bounds, PatchMeasure measure) {
-  return measure == PatchMeasure::kPixels ? bounds.error : std::sqrt(bounds.mean_squared);
+  return measure == PatchMeasure::kMeanSquared ? std::sqrt(bounds.mean_squared) : bounds.error;
 }
 
 }  // namespace
