@@ -140,8 +140,9 @@ void ClusterDag::simplify_group(std::span<const std::uint32_t> members) {
   for (const std::uint32_t c : members) clusters_[c].group = number;
 
   const Piece piece(merged, positions_, local_of_);
-  const auto target =
-      3 * static_cast<std::size_t>(options_.ratio * static_cast<float>(merged.size() / 3));
+  const std::size_t faces = merged.size() / 3;
+  const std::size_t target =
+      3 * static_cast<std::size_t>(options_.ratio * static_cast<float>(faces));
   constexpr float kNoLimit = 1e10f;
   float error = 0;
   std::vector<std::uint32_t> simplified(merged.size());
@@ -159,14 +160,14 @@ void ClusterDag::simplify_group(std::span<const std::uint32_t> members) {
 }
 
 std::vector<std::uint32_t> ClusterDag::cut(const PixelScale& scale, float pixels) const {
-  std::vector<std::uint8_t> is_coarse_enough(groups_.size());
+  std::vector<std::uint8_t> is_too_coarse(groups_.size());
   for (std::size_t g = 0; g < groups_.size(); ++g)
-    is_coarse_enough[g] = scale.pixels_of(groups_[g].error, groups_[g].ball) > pixels ? 1 : 0;
+    is_too_coarse[g] = scale.pixels_of(groups_[g].error, groups_[g].ball) > pixels ? 1 : 0;
   std::vector<std::uint32_t> chosen;
   for (std::uint32_t c = 0; c < clusters_.size(); ++c) {
     const Cluster& cluster = clusters_[c];
-    const bool is_good = cluster.made_by == kNone || !is_coarse_enough[cluster.made_by];
-    if (is_good && is_coarse_enough[cluster.group]) chosen.push_back(c);
+    const bool is_good = cluster.made_by == kNone || !is_too_coarse[cluster.made_by];
+    if (is_good && is_too_coarse[cluster.group]) chosen.push_back(c);
   }
   return chosen;
 }

@@ -1,7 +1,7 @@
 // A cluster DAG, the peer of the patch tree: clusters of triangles, grouped, simplified and cut
 // into clusters anew, level by level, with meshoptimizer doing the work.
 //
-// Based on: [Karis2021], [Kapoulkine2025] (structure and numbers of its defaults).
+// Based on: [KarisStubbeWihlidal2021], [Kapoulkine2025] (structure and numbers of its defaults).
 // Differs: meshoptimizer 0.18 (Debian) has neither its partition of clusters, nor clusters of a
 // least
 //   size, nor locks per vertex, nor its permissive and sloppy ways out where a group is stuck:

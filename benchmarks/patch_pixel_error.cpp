@@ -7,7 +7,7 @@
 #include <benchmarks/bench_meshes.h>
 #include <benchmarks/cluster_dag.h>
 #include <benchmarks/cut_pieces.h>
-#include <benchmarks/error_curve.h>
+#include <benchmarks/pixel_error_tables.h>
 #include <benchmarks/views_of_mesh.h>
 #include <varifold/mesh/weld.h>
 #include <varifold/models/patch_tree/build.h>
@@ -21,7 +21,6 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,11 +30,7 @@ namespace {
 
 constexpr int kViews = 4;  // of a kind
 constexpr std::uint32_t kPoints = 30'000, kTries = 4'000'000;
-constexpr std::uint32_t kPatchSizes[] = {128, 512, 1000};
 constexpr double kAsked[] = {0.25, 0.354, 0.5, 0.707, 1, 1.414, 2, 2.828, 4, 5.657, 8};  // pixels
-
-// What is compared: all that the frustum holds, or what is seen of it.
-enum class Mode { kFrustum, kSeen };
 
 struct View {
   ViewCriterion criterion;
@@ -52,14 +47,6 @@ struct Contender {
   std::uint64_t stored = 0;
   double seconds = 0;  // to build, one thread
   std::function<Cut(const ViewCriterion&, Mode, float pixels)> cut;
-};
-
-// Of all views of a kind.
-struct Result {
-  std::string mesh, kind, model;
-  Mode mode = Mode::kFrustum;
-  double asked = 0, rms = 0, most_of_1000 = 0, max = 0;  // pixels
-  double drawn = 0, inside = 0, all = 0;                 // triangles a view
 };
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -166,7 +153,7 @@ std::vector<Contender> make_contenders(const TriangleMesh& mesh) {
   std::vector<Contender> all;
   auto start = std::chrono::steady_clock::now();
   const auto dag = std::make_shared<const ClusterDag>(mesh);
-  all.push_back({"cluster DAG", dag->stored_triangles(), seconds_since(start),
+  all.push_back({kPeer, dag->stored_triangles(), seconds_since(start),
                  [=](const ViewCriterion& view, Mode /*mode*/, float pixels) {
                    return cut_of(*dag, view, pixels);
                  }});
@@ -193,9 +180,9 @@ void check_border(const Contender& contender, const Cut& cut, const TriangleMesh
   std::exit(1);
 }
 
-Result measure(const Contender& contender, const std::vector<View>& views, Mode mode,
-               double asked) {
-  Result result;
+CutErrors measure(const Contender& contender, const std::vector<View>& views, Mode mode,
+                  double asked) {
+  CutErrors result;
   std::vector<double> pixels;
   double squares = 0;
   for (const View& view : views) {
@@ -219,23 +206,23 @@ Result measure(const Contender& contender, const std::vector<View>& views, Mode 
   return result;
 }
 
-std::vector<Result> results_of(const std::string& name) {
+std::vector<CutErrors> results_of(const std::string& name) {
   const TriangleMesh mesh = welded(bench::mesh(name));
   const Original original{mesh};
   const std::vector<Views> all = make_views(original);
-  std::vector<Result> results;
+  std::vector<CutErrors> results;
   for (const Contender& contender : make_contenders(mesh)) {
     std::printf("%s, %s: %u triangles, stored %.2f times, built in %.2f s, %.0fk triangles/s\n",
                 name.c_str(), contender.name.c_str(), mesh.triangle_count(),
                 static_cast<double>(contender.stored) / mesh.triangle_count(), contender.seconds,
                 1e-3 * mesh.triangle_count() / contender.seconds);
     std::fflush(stdout);
-    // Borders of open meshes move in patch trees, whose own checks see to them.
-    const bool is_kept = contender.name == "cluster DAG" || has_same_border(mesh, {});
+    // Borders of open meshes move in patch trees; `varifold check` sees to those.
+    const bool keeps_border = contender.name == kPeer || has_same_border(mesh, {});
     for (const Views& views : all)
       for (const Mode mode : {Mode::kFrustum, Mode::kSeen})
         for (const double asked : kAsked) {
-          if (is_kept && mode == Mode::kFrustum)
+          if (keeps_border && mode == Mode::kFrustum)
             check_border(contender,
                          contender.cut(views.views[0].criterion, mode, static_cast<float>(asked)),
                          mesh);
@@ -245,99 +232,6 @@ std::vector<Result> results_of(const std::string& name) {
         }
   }
   return results;
-}
-
-using Field = double Result::*;
-
-// What is measured, the error where triangles are told, and the range of the mean.
-struct Measure {
-  Field field;
-  const char* title;
-  double told, low, high;  // pixels
-};
-constexpr Measure kMeasures[] = {{&Result::max, "max", 1, 0.5, 4},
-                                 {&Result::most_of_1000, "99.9 %", 1, 0.5, 4},
-                                 {&Result::rms, "RMS", 0.25, 0.125, 1}};
-
-ErrorCurve curve_of(const std::vector<Result>& results, const Result& like, Field error,
-                    Field triangles) {
-  std::vector<CurvePoint> points;
-  for (const Result& r : results)
-    if (r.mesh == like.mesh && r.kind == like.kind && r.model == like.model && r.mode == like.mode)
-      points.push_back({r.*error, r.*triangles});
-  return ErrorCurve(std::move(points));
-}
-
-void print_asked(const std::vector<Result>& results) {
-  std::printf(
-      "\n| mesh | views | model | asked, px | max | 99.9 %% | RMS | drawn | inside | all |\n"
-      "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
-  for (const Result& r : results)
-    if (r.mode == Mode::kFrustum &&
-        (r.asked == 0.5 || r.asked == 1 || r.asked == 2 || r.asked == 4))
-      std::printf("| %s | %s | %s | %g | %.2f | %.2f | %.3f | %.0f | %.0f | %.0f |\n",
-                  r.mesh.c_str(), r.kind.c_str(), r.model.c_str(), r.asked, r.max, r.most_of_1000,
-                  r.rms, r.drawn, r.inside, r.all);
-}
-
-void print_number(const char* form, const std::optional<double>& number) {
-  number ? std::printf(form, *number) : std::printf("-");
-}
-
-// Triangles of the peer for an error, and how many patch trees need for each of them: at that
-// error, and in the mean over all errors of the range that both were measured at.
-void print_equal(const std::vector<Result>& results, Mode mode, Field triangles) {
-  std::printf("\n%s, %s\n\n| mesh | views | measured | cluster DAG",
-              mode == Mode::kSeen ? "what is seen" : "what the frustum holds",
-              triangles == &Result::drawn ? "triangles of pieces that are not culled"
-                                          : "triangles inside the frustum");
-  for (const std::uint32_t size : kPatchSizes) std::printf(" | patches of %u, mean", size);
-  std::printf(" |\n| --- | --- | --- | --- | --- | --- | --- |\n");
-  std::map<std::pair<std::string, std::size_t>, std::vector<double>> means;  // logarithms
-  for (const Measure& measure : kMeasures) {
-    for (const Result& r : results) {
-      if (r.mode != mode || r.asked != 1 || r.model != "cluster DAG") continue;
-      const ErrorCurve peer = curve_of(results, r, measure.field, triangles);
-      const auto of_peer = peer.triangles_at(measure.told);
-      std::printf("| %s | %s | %s %g px | ", r.mesh.c_str(), r.kind.c_str(), measure.title,
-                  measure.told);
-      print_number("%.0f", of_peer);
-      for (std::size_t i = 0; i < std::size(kPatchSizes); ++i) {
-        Result like = r;
-        like.model = "patches of " + std::to_string(kPatchSizes[i]);
-        const ErrorCurve own = curve_of(results, like, measure.field, triangles);
-        const auto of_own = own.triangles_at(measure.told);
-        const auto mean = mean_ratio(own, peer, measure.low, measure.high);
-        std::printf(" | ");
-        print_number("%.2f", of_own && of_peer ? std::optional(*of_own / *of_peer) : std::nullopt);
-        std::printf(", ");
-        print_number("%.2f", mean);
-        if (mean) means[{measure.title, i}].push_back(std::log(*mean));
-      }
-      std::printf(" |\n");
-    }
-  }
-  for (const Measure& measure : kMeasures) {
-    std::printf("| all | all | %s | ", measure.title);
-    for (std::size_t i = 0; i < std::size(kPatchSizes); ++i) {
-      double sum = 0;
-      const std::vector<double>& logarithms = means[{measure.title, i}];
-      for (const double x : logarithms) sum += x / static_cast<double>(logarithms.size());
-      std::printf(" | %.2f", std::exp(sum));
-    }
-    std::printf(" |\n");
-  }
-}
-
-void write_curves(const std::vector<Result>& results, const char* path) {
-  std::FILE* const file = std::fopen(path, "w");
-  if (file == nullptr) return std::perror(path);
-  std::fprintf(file, "mesh,views,seen,model,asked,max,most_of_1000,rms,drawn,inside,all\n");
-  for (const Result& r : results)
-    std::fprintf(file, "%s,%s,%d,%s,%g,%.4f,%.4f,%.5f,%.1f,%.1f,%.1f\n", r.mesh.c_str(),
-                 r.kind.c_str(), r.mode == Mode::kSeen ? 1 : 0, r.model.c_str(), r.asked, r.max,
-                 r.most_of_1000, r.rms, r.drawn, r.inside, r.all);
-  std::fclose(file);
 }
 
 }  // namespace
@@ -354,15 +248,15 @@ int main(int argc, char** argv) {
       names.emplace_back(argv[i]);
   }
   if (names.empty()) names = {"bunny.ply", "igea.ply", "armadillo.ply", "dragon.ply", "planet"};
-  std::vector<Result> results;
+  std::vector<CutErrors> results;
   for (const std::string& name : present(names)) {
-    const std::vector<Result> more = results_of(name);
+    const std::vector<CutErrors> more = results_of(name);
     results.insert(results.end(), more.begin(), more.end());
   }
   print_asked(results);
-  print_equal(results, Mode::kFrustum, &Result::drawn);
-  print_equal(results, Mode::kFrustum, &Result::inside);
-  print_equal(results, Mode::kSeen, &Result::drawn);
+  print_equal(results, Mode::kFrustum, &CutErrors::drawn);
+  print_equal(results, Mode::kFrustum, &CutErrors::inside);
+  print_equal(results, Mode::kSeen, &CutErrors::drawn);
   if (curves != nullptr) write_curves(results, curves);
   return 0;
 }
