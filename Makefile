@@ -37,6 +37,9 @@ figures: build
 	  "$(or $(VARIFOLD_MESHES),../shared/meshes)" docs/pictures/strips
 	python3 benchmarks/figures/patch_figures.py build/release/bin/varifold \
 	  "$(or $(VARIFOLD_MESHES),../shared/meshes)" docs/pictures/patch_tree
+	@sh cmake/build_preset.sh bench varifold_patch_pixel_error
+	python3 benchmarks/figures/pixel_error_figures.py build/bench/bin/varifold_patch_pixel_error \
+	  docs/pictures/patch_tree
 
 format:
 	git ls-files '*.h' '*.cpp' | xargs clang-format -i
