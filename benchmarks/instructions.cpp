@@ -1,6 +1,8 @@
 // A small fixed job for callgrind; see instructions.sh.
 #include <varifold/mesh/generators.h>
 #include <varifold/models/lodstrips/build.h>
+#include <varifold/models/patch_tree/build.h>
+#include <varifold/models/patch_tree/front.h>
 #include <varifold/models/pm/build.h>
 #include <varifold/models/pm/instance.h>
 #include <varifold/models/vdpm/build.h>
@@ -12,16 +14,13 @@
 #include <cstdint>
 #include <cstdio>
 #include <memory>
+#include <utility>
 
 namespace {
 
 // Half an orbit, a degree a frame.
-std::uint32_t orbit(const varifold::DetailedMesh& detailed) {
-  varifold::StepBoundsOptions options;
-  options.threads = 1;
-  varifold::ViewDependentInstance instance(std::make_shared<const varifold::ViewDependentMesh>(
-      varifold::build_view_dependent_mesh(detailed, options)));
-  const varifold::Sphere ball = instance.model().bounding_ball();
+template <class Visit>
+void for_each_view(const varifold::Sphere& ball, const Visit& visit) {
   for (int frame = 0; frame < 180; ++frame) {
     const float angle = 0.01745f * static_cast<float>(frame);
     varifold::Camera camera;
@@ -31,9 +30,35 @@ std::uint32_t orbit(const varifold::DetailedMesh& detailed) {
     varifold::set_depth_range(camera, ball);
     varifold::RefineCriteria criteria;
     criteria.view.emplace(camera);
-    instance.adapt(criteria, {2});
+    visit(criteria);
   }
+}
+
+std::uint32_t orbit(const varifold::DetailedMesh& detailed) {
+  varifold::StepBoundsOptions options;
+  options.threads = 1;
+  varifold::ViewDependentInstance instance(std::make_shared<const varifold::ViewDependentMesh>(
+      varifold::build_view_dependent_mesh(detailed, options)));
+  for_each_view(instance.model().bounding_ball(),
+                [&](const varifold::RefineCriteria& criteria) { instance.adapt(criteria, {2}); });
   return instance.triangle_count();
+}
+
+std::uint32_t orbit_of_patches(const varifold::TriangleMesh& mesh) {
+  varifold::PatchTreeOptions options;
+  options.triangles_per_patch = 64;
+  options.threads = 1;
+  auto built = varifold::build_patch_tree(mesh, options);
+  if (!built) return 0;
+  const auto tree = std::make_shared<const varifold::PatchTree>(std::move(built->tree));
+  varifold::PatchFront front(tree);
+  varifold::PatchFrontOptions front_options;
+  front_options.limits.tolerance = 2;
+  std::uint32_t triangles = 0;
+  for_each_view(tree->data().bounds[0].ball, [&](const varifold::RefineCriteria& criteria) {
+    triangles = front.adapt(criteria, front_options).statistics.triangles;
+  });
+  return triangles;
 }
 
 }  // namespace
@@ -45,7 +70,8 @@ int main() {
   varifold::SimplifyOptions options;
   options.threads = 1;
   options.measure_error = false;
-  auto result = varifold::simplify(varifold::planet(planet), options);
+  const varifold::TriangleMesh mesh = varifold::planet(planet);
+  auto result = varifold::simplify(mesh, options);
   if (!result || !varifold::measure_deviation(result->detailed, {1, {}})) return 1;
   varifold::ProgressiveMeshInstance instance(std::make_shared<const varifold::ProgressiveMesh>(
       varifold::build_progressive_mesh(result->detailed)));
@@ -56,7 +82,7 @@ int main() {
       std::make_shared<const varifold::LodStrips>(varifold::build_lod_strips(result->detailed)));
   for (std::uint32_t i = 0; i <= 100; ++i) strips.go_to_level(finest / 100 * i);
   strips.go_to_level(0);
-  std::printf("%u triangles at the base, %u in the last view\n", instance.triangle_count(),
-              orbit(result->detailed));
+  std::printf("%u triangles at the base, %u and %u in the last view\n", instance.triangle_count(),
+              orbit(result->detailed), orbit_of_patches(mesh));
   return 0;
 }

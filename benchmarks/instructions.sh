@@ -42,6 +42,8 @@ count build_block_form 'varifold::build_block_form(*)'
 count lod_strips_go_to_level 'varifold::LodStripsInstance::go_to_level(unsigned int)'
 count build_view_dependent_mesh 'varifold::build_view_dependent_mesh(*)'
 count adapt_front 'varifold::ViewFront::adapt(*)'
+count build_patch_tree 'varifold::build_patch_tree(*)'
+count adapt_patch_front 'varifold::PatchFront::adapt(*)'
 [ "$compiler" = "$known" ] || echo "$counts is of another compiler: ${known:-none}"
 if [ "$mode" = update ]; then
   cp "$out/counts.txt" "$counts"
