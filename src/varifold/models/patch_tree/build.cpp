@@ -26,7 +26,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 // A level that keeps more than this part of its triangles is not worth having.
-constexpr double kPoorRatio = 0.9;
+constexpr double kPoorRatio = 0.75;
 // More triangles than this in a patch would not fit its 16-bit numbers.
 constexpr std::uint32_t kMaxPatchTriangles = 21000;
 constexpr std::size_t kPatchesPerPiece = 16;
