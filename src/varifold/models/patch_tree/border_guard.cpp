@@ -278,6 +278,9 @@ bool BorderGuard::verify(BorderLocks& locks, int threads) const {
   });
   bool sound = true;
   std::vector<Chord> chords;
+  std::size_t count = 0;
+  for (const Piece& piece : pieces) count += piece.chords.size();
+  chords.reserve(count);
   for (Piece& piece : pieces) {
     sound &= piece.is_sound;
     append(chords, piece.chords);

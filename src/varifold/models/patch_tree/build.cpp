@@ -30,7 +30,7 @@ constexpr double kPoorRatio = 0.75;
 // More triangles than this in a patch would not fit its 16-bit numbers.
 constexpr std::uint32_t kMaxPatchTriangles = 21000;
 constexpr std::size_t kPatchesPerPiece = 16;
-constexpr std::uint32_t kManyTriangles = 2'000'000;
+constexpr std::uint32_t kManyTriangles = 4'000'000;
 
 class Stopwatch {
  public:
@@ -177,7 +177,7 @@ void Builder::set_corners() {
   });
 }
 
-// Taking memory from the system anew costs 2 % of the time; the memory of small meshes is not
+// Taking memory from the system anew costs some percent of the time; that of small meshes is not
 // missed.
 void Builder::save_memory() const {
   if (mesh_.triangle_count() >= kManyTriangles) release_free_memory();
@@ -254,20 +254,19 @@ bool Builder::make_levels_of_detail() {
       keep_level(level, nullptr);
       return true;
     }
-    // The queues and logs of the first levels are much of what there is; then what is kept of them.
-    if (level < 2) save_memory();
+    save_memory();  // queues and logs
     if (!errors) errors.emplace(surface_, options_.threads);
     parallel_both(
         options_.threads,
         [&] {
-          errors->measure(halving.went(), halving.live());
+          errors->measure(halving.take_went(), halving.live());
           watch_.add_to(result_.report.error_seconds);
         },
         [&] { keep_level(level, &halving); });
     add_errors(kept_.back(), *errors, surface_, options_.threads);
     if (options_.priority == PatchPriority::kMeanValue)
       add_mean_value_errors(kept_.back(), *errors, surface_, options_.threads);
-    if (level == 0) save_memory();
+    save_memory();  // what the layout was joined from
     halving.shrink(level_mesh_, left, levels_.parent[level]);
     watch_.add_to(result_.report.layout_seconds);
   }

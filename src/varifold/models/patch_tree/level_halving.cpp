@@ -153,7 +153,7 @@ void LevelHalving::find_survivors(std::span<const CollapseLogEntry> log) {
     for (std::uint32_t w = wedge.first[from]; w < wedge.first[from + 1]; ++w)
       survivor_[w] = survivor_[wedge.target[w]];
   }
-  went_ = {};
+  went_.clear();
   went_.reserve(live_.size() / 2);
   std::size_t kept = 0;
   for (const std::uint32_t p : live_) {
@@ -163,6 +163,7 @@ void LevelHalving::find_survivors(std::span<const CollapseLogEntry> log) {
       live_[kept++] = p;
   }
   live_.resize(kept);
+  live_.shrink_to_fit();
 }
 
 bool LevelHalving::is_left(const LevelMesh& mesh, std::size_t triangle,

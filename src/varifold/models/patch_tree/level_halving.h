@@ -66,9 +66,9 @@ class LevelHalving {
   [[nodiscard]] std::uint32_t survivor(std::uint32_t wedge) const { return survivor_[wedge]; }
   /// The points that are left, ascending.
   [[nodiscard]] std::span<const std::uint32_t> live() const { return live_; }
-  /// The points that went, ascending, each with the point where it ended up.
-  [[nodiscard]] std::span<const std::pair<std::uint32_t, std::uint32_t>> went() const {
-    return went_;
+  /// The points that went, ascending, each with the point where it ended up; once for each level.
+  [[nodiscard]] std::vector<std::pair<std::uint32_t, std::uint32_t>> take_went() {
+    return std::exchange(went_, {});
   }
   [[nodiscard]] const BorderGuard& guard() const { return guard_; }
 
