@@ -60,8 +60,9 @@ void report_times(const PatchTree& tree, const PatchTreeReport& built, const Tim
 void warn_of_stop(const PatchTreeReport& built, const std::string& input) {
   if (built.stop == TreeStop::kOneRoot || built.level_triangles.empty()) return;
   print_message(fmt::format(
-      "{}: stopped at {} triangles in {} patches: another level would have kept more than three quarters", input,
-      format_count(built.level_triangles.back()), format_count(built.level_patches.back())));
+      "{}: stopped at {} triangles in {} patches: another level would have kept more than three "
+      "quarters",
+      input, format_count(built.level_triangles.back()), format_count(built.level_patches.back())));
 }
 
 Result<void> check_any_left(const PatchTree& tree, const PatchTreeReport& built,
