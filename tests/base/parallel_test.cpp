@@ -2,8 +2,11 @@
 
 #include <varifold/base/parallel.h>
 #include <atomic>
+#include <chrono>
 #include <mutex>
 #include <set>
+#include <stdexcept>
+#include <thread>
 #include <vector>
 
 namespace varifold {
@@ -48,9 +51,33 @@ TEST(ParallelBoth, RunsBothAndLoopsWithin) {
         for (std::size_t i = begin; i < end; ++i) ++visits[first + i];
       });
     };
+    std::thread::id first;
     parallel_both(
-        threads, [&] { visit(0); }, [&] { visit(100); });
+        threads,
+        [&] {
+          visit(0);
+          first = std::this_thread::get_id();
+        },
+        [&] { visit(100); });
     for (const auto& n : visits) ASSERT_EQ(n, 1);
+    EXPECT_EQ(first, std::this_thread::get_id());
+  }
+}
+
+TEST(ParallelBoth, LeavesNothingRunningWhereOneThrows) {
+  for (int i = 0; i < 20; ++i) {
+    std::atomic<int> begun = 0, ended = 0;
+    const auto slow = [&] {
+      ++begun;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      ++ended;
+    };
+    const auto throws = [&] {
+      if (i % 2 == 0) std::this_thread::sleep_for(std::chrono::microseconds(500));
+      throw std::runtime_error("one");
+    };
+    EXPECT_THROW(parallel_both(2, throws, slow), std::runtime_error);
+    EXPECT_EQ(begun, ended);
   }
 }
 

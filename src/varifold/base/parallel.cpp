@@ -5,6 +5,7 @@
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+#include <tbb/task_group.h>
 #include <algorithm>
 #include <optional>
 
@@ -26,11 +27,12 @@ namespace varifold {
 
 namespace {
 
-/// Runs piece(0) .. piece(count - 1) on the pool.
+#ifdef VARIFOLD_THREAD_SANITIZER
+
+// The sanitizer cannot see how the system's oneTBB synchronises; plain threads it can.
+
 template <class Piece>
 void run_pieces(int threads, std::size_t count, const Piece& piece) {
-#ifdef VARIFOLD_THREAD_SANITIZER
-  // The sanitizer cannot see how the system's oneTBB synchronises; plain threads it can.
   std::atomic<std::size_t> next{0};
   std::vector<std::thread> workers;
   for (int i = 0; i < threads; ++i)
@@ -38,25 +40,51 @@ void run_pieces(int threads, std::size_t count, const Piece& piece) {
       for (std::size_t p = next++; p < count; p = next++) piece(p);
     });
   for (std::thread& worker : workers) worker.join();
+}
+
+void run_both(int, const std::function<void()>& first, const std::function<void()>& second) {
+  const std::jthread worker(second);  // joins, also when first() throws
+  first();
+}
+
 #else
+
+/// Runs body() in an arena of so many threads.
+template <class Body>
+void run_in_arena(int threads, const Body& body) {
+  // Within another loop the same arena serves both, so that whoever is done helps the other.
+  if (tbb::this_task_arena::max_concurrency() == threads) return body();
   // oneTBB caps its workers at the hardware's; more are given where they are asked for.
   std::optional<tbb::global_control> raised;
   if (threads > hardware_threads())
     raised.emplace(tbb::global_control::max_allowed_parallelism, threads);
-  const auto run = [&] {
+  tbb::task_arena arena(threads);
+  arena.execute(body);
+}
+
+/// Runs piece(0) .. piece(count - 1) on the pool.
+template <class Piece>
+void run_pieces(int threads, std::size_t count, const Piece& piece) {
+  run_in_arena(threads, [&] {
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, count, 1),
         [&](const tbb::blocked_range<std::size_t>& range) {
           for (std::size_t p = range.begin(); p < range.end(); ++p) piece(p);
         },
         tbb::simple_partitioner());
-  };
-  // Within another loop the same arena serves both, so that whoever is done helps the other.
-  if (tbb::this_task_arena::max_concurrency() == threads) return run();
-  tbb::task_arena arena(threads);
-  arena.execute(run);
-#endif
+  });
 }
+
+void run_both(int threads, const std::function<void()>& first,
+              const std::function<void()>& second) {
+  run_in_arena(threads, [&] {
+    tbb::task_group group;
+    group.run(second);
+    group.run_and_wait(first);  // on this thread; waits for both, also where one throws
+  });
+}
+
+#endif
 
 }  // namespace
 
@@ -77,8 +105,10 @@ void parallel_for(int threads, std::size_t count, std::size_t grain,
 
 void parallel_both(int threads, const std::function<void()>& first,
                    const std::function<void()>& second) {
-  parallel_for(threads, 2, 1,
-               [&](std::size_t begin, std::size_t) { begin == 0 ? first() : second(); });
+  if (threads <= 0) threads = hardware_threads();
+  if (threads > 1) return run_both(threads, first, second);
+  first();
+  second();
 }
 
 }  // namespace varifold

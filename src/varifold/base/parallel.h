@@ -15,7 +15,9 @@ namespace varifold {
 void parallel_for(int threads, std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t begin, std::size_t end)>& body);
 
-/// Runs first() and second(), at the same time where there are threads for both.
+/// Runs first() and second(), at the same time where there are threads for both; first() on the
+/// caller's thread, and before second() where there is one thread alone. Where first() throws,
+/// second() has ended or never begins.
 void parallel_both(int threads, const std::function<void()>& first,
                    const std::function<void()>& second);
 

@@ -10,6 +10,10 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <set>
+#include <string>
+#include <string_view>
+#include <thread>
 
 namespace varifold {
 namespace {
@@ -108,6 +112,31 @@ TEST(PatchTreeBuild, DoesNotDependOnThreads) {
     EXPECT_EQ(one.topology().neighbors, other.topology().neighbors);
     for (std::uint32_t n = 0; n < one.node_count(); ++n)
       ASSERT_EQ(one.data().bounds[n].error, other.data().bounds[n].error);
+  }
+}
+
+TEST(PatchTreeBuild, ReportsOnTheThreadOfTheCaller) {
+  std::set<std::string> stages;
+  PatchTreeOptions options;
+  options.triangles_per_patch = 100;
+  options.threads = 2;
+  options.progress = [&, caller = std::this_thread::get_id()](std::string_view stage, float) {
+    EXPECT_EQ(std::this_thread::get_id(), caller);
+    stages.emplace(stage);
+    return true;
+  };
+  ASSERT_TRUE(build_patch_tree(planet_of(100000), options));
+  EXPECT_EQ(stages, (std::set<std::string>{"patches", "simplifying"}));
+}
+
+TEST(PatchTreeBuild, IsCancelledAtAnyStage) {
+  for (const std::string_view last : {"patches", "simplifying"}) {
+    PatchTreeOptions options;
+    options.threads = 2;
+    options.progress = [&](std::string_view stage, float) { return stage != last; };
+    const auto built = build_patch_tree(planet_of(20000), options);
+    ASSERT_FALSE(built);
+    EXPECT_EQ(built.error().kind, ErrorKind::kCancelled);
   }
 }
 

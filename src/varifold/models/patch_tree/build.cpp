@@ -94,8 +94,8 @@ bool Builder::make_surface() {
   SurfaceBuilder builder(mesh_, options);
   bool is_cut = false;
   parallel_both(
-      options_.threads, [&] { builder.make_rings(); },
-      [&] { is_cut = cut_into_patches(builder.surface()); });
+      options_.threads, [&] { is_cut = cut_into_patches(builder.surface()); },  // reports progress
+      [&] { builder.make_rings(); });
   if (!is_cut) return false;
   surface_ = builder.finish(result_.report.faults);
   // Repeated triangles are known now; they must not be in a patch.
