@@ -4,7 +4,7 @@
 #include <benchmarks/bench_meshes.h>
 #include <benchmarks/benchmarks.h>
 #include <benchmarks/level_tours.h>
-#include <varifold/models/common/extract_level.h>
+#include <varifold/mesh/vertex_arrays.h>
 #include <varifold/models/lodstrips/block_cursor.h>
 #include <varifold/models/lodstrips/grouped_cursor.h>
 #include <varifold/models/lodstrips/static_build.h>
@@ -72,7 +72,7 @@ void build(State& state, const Source& source) {
   const DetailedMesh& input = detailed(source.mesh);
   std::size_t bytes = 0;
   for (auto _ : state) bytes = Form::build(input, stripify(input.mesh, source.options)).bytes();
-  bytes += attribute_bytes(input.mesh) + LevelTable(input.sequence).bytes();
+  bytes += vertex_bytes(input.mesh) + LevelTable(input.sequence).bytes();
   state.counters["triangles/s"] =
       Counter(input.mesh.triangle_count(), Counter::kIsIterationInvariantRate);
   state.counters["bytes/vertex"] = static_cast<double>(bytes) / input.mesh.vertex_count();

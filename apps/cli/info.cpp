@@ -96,8 +96,7 @@ CommandResult mesh_info(const InfoCommand& command, const std::filesystem::path&
   report.count("triangles", "triangles", mesh.triangle_count());
   report_bounds(bounds(mesh), report);
   report_attributes(mesh, report);
-  report_topology(analyze_topology(mesh, weld_exact(mesh.positions), command.common.threads),
-                  report);
+  report_topology(analyze_topology(mesh, weld_points(mesh), command.common.threads), report);
   report.set("warnings", imported->warnings);
   return finish(report, command.common);
 }

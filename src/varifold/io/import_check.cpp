@@ -31,8 +31,11 @@ Result<void> check_sizes(const TriangleMesh& mesh) {
     return fail(ErrorKind::kUnsupported, "more vertices or corners than 32 bits can count");
   const auto fits = [&](std::size_t size) { return size == 0 || size == mesh.positions.size(); };
   if (!fits(mesh.normals.size()) || !fits(mesh.texcoords.size()) || !fits(mesh.colors.size()) ||
-      mesh.indices.size() % 3 != 0)
+      !fits(mesh.skin.size()) || mesh.indices.size() % 3 != 0)
     return fail(ErrorKind::kInvalidInput, "attributes do not fit the vertices");
+  for (const Pose& pose : mesh.poses)
+    if (pose.positions.size() != mesh.positions.size() || !fits(pose.normals.size()))
+      return fail(ErrorKind::kInvalidInput, "a pose does not fit the vertices");
   return {};
 }
 

@@ -112,7 +112,7 @@ class FrontChecker {
     if (has_numbers_of_model)
       full_.check_corners(mesh, check::ancestors_in_front(points_, mesh), points_.point_of, faults_,
                           number);
-    const WeldMap weld = has_numbers_of_model ? points_.all() : weld_exact(mesh.positions);
+    const WeldMap weld = has_numbers_of_model ? points_.all() : weld_points(mesh);
     full_.check_surface(mesh, weld, faults_, number);
     const std::uint32_t zero_area = full_.may_have_zero_area() ? 0 : check::count_zero_area(mesh);
     if (zero_area > 0) faults_.add("zero_area", number, std::to_string(zero_area) + " triangles");

@@ -201,7 +201,7 @@ class ModelChecker {
 
   void note_coincident_points(std::vector<Fault>& faults) const {
     const std::uint32_t points = points_.base_points + model_->finest_level();
-    const std::uint32_t positions = weld_exact(full_.mesh().positions).class_count;
+    const std::uint32_t positions = weld_points(full_.mesh()).class_count;
     if (positions < points)
       faults.push_back({"coincident_point", points - positions, "the full level", Severity::kNote});
   }

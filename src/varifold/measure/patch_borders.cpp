@@ -23,7 +23,7 @@ struct BorderPoint {
 class BorderChecker {
  public:
   BorderChecker(const PatchTree& tree, PlaceFaults& faults)
-      : data_(tree.data()), faults_(faults), weld_(weld_exact(data_.vertices.positions)) {}
+      : data_(tree.data()), faults_(faults), weld_(weld_points(data_.vertices)) {}
 
   void check_level(std::uint32_t level) {
     gather(level);

@@ -50,7 +50,7 @@ void for_each_edge(const std::vector<HalfEdge>& edges, const Visit& visit) {
 
 SurfaceCounts count_surface(const TriangleMesh& mesh) {
   SurfaceCounts counts;
-  const WeldMap weld = weld_exact(mesh.positions);
+  const WeldMap weld = weld_points(mesh);
   std::vector<Corners> triangles = triangles_of(mesh, weld, counts);
   DisjointSets sets(weld.class_count);
   std::vector<HalfEdge> edges;

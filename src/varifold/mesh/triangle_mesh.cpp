@@ -1,5 +1,6 @@
 #include <varifold/mesh/triangle_mesh.h>
 
+#include <varifold/mesh/vertex_arrays.h>
 #include <algorithm>
 #include <numeric>
 
@@ -39,19 +40,6 @@ void set_triangle_materials(TriangleMesh& mesh, const std::vector<std::uint32_t>
   mesh.indices = std::move(sorted);
 }
 
-namespace {
-
-template <class T>
-std::vector<T> gather(const std::vector<T>& values, const std::vector<std::uint32_t>& kept) {
-  std::vector<T> result;
-  if (values.empty()) return result;
-  result.reserve(kept.size());
-  for (const std::uint32_t v : kept) result.push_back(values[v]);
-  return result;
-}
-
-}  // namespace
-
 TriangleMesh without_unused_vertices(const TriangleMesh& mesh) {
   std::vector<std::uint32_t> new_id(mesh.vertex_count(), kNone);
   for (const std::uint32_t v : mesh.indices) new_id[v] = 0;
@@ -62,11 +50,7 @@ TriangleMesh without_unused_vertices(const TriangleMesh& mesh) {
     kept.push_back(v);
   }
 
-  TriangleMesh result;
-  result.positions = gather(mesh.positions, kept);
-  result.normals = gather(mesh.normals, kept);
-  result.texcoords = gather(mesh.texcoords, kept);
-  result.colors = gather(mesh.colors, kept);
+  TriangleMesh result = gather_vertices(mesh, kept);
   result.indices.reserve(mesh.indices.size());
   for (const std::uint32_t v : mesh.indices) result.indices.push_back(new_id[v]);
   result.ranges = mesh.ranges;

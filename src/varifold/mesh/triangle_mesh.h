@@ -2,12 +2,16 @@
 #pragma once
 
 #include <varifold/base/math.h>
+#include <varifold/mesh/pose.h>
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace varifold {
+
+struct Rig;  // rig.h
 
 /// What a material's texture is used for; the order is that of Material::textures.
 enum class TextureUse { kBaseColor, kMetallicRoughness, kNormal, kOcclusion, kEmissive, kCount };
@@ -48,12 +52,16 @@ struct MaterialRange {
 /// Positions always; normals, texture coordinates and colours are either empty or have one entry
 /// per vertex. Vertices that share a position but not attributes (seams) are separate vertices
 /// ("wedges"); weld.h gives the position classes. `ranges` is empty (one nameless material) or
-/// covers all triangles in order, without gaps, each material at most once.
+/// covers all triangles in order, without gaps, each material at most once. A mesh that moves has
+/// poses, a skin, or both; `positions` is its shape at rest.
 struct TriangleMesh {
   std::vector<Vec3> positions;
   std::vector<Vec3> normals;
   std::vector<Vec2> texcoords;  ///< (0, 0) is the upper left corner of the image, as in glTF
   std::vector<Color> colors;
+  std::vector<JointWeights> skin;      ///< empty or one a vertex; joints are those of `rig`
+  std::vector<Pose> poses;             ///< other shapes; what blends make of them: pose_blend.h
+  std::shared_ptr<const Rig> rig;      ///< null where nothing but weights of poses moves the mesh
   std::vector<std::uint32_t> indices;  ///< three per triangle, counter-clockwise seen from outside
   std::vector<MaterialRange> ranges;
   std::vector<Material> materials;
@@ -68,6 +76,7 @@ struct TriangleMesh {
   [[nodiscard]] bool has_normals() const { return !normals.empty(); }
   [[nodiscard]] bool has_texcoords() const { return !texcoords.empty(); }
   [[nodiscard]] bool has_colors() const { return !colors.empty(); }
+  [[nodiscard]] bool has_skin() const { return !skin.empty(); }
 };
 
 /// The box around all vertices that a triangle uses; O(indices).

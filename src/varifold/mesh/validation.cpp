@@ -54,6 +54,13 @@ void check_array_sizes(const TriangleMesh& mesh, FaultList& faults) {
   check(mesh.normals.size(), "normals");
   check(mesh.texcoords.size(), "texture coordinates");
   check(mesh.colors.size(), "colours");
+  check(mesh.skin.size(), "joints and weights");
+  for (const Pose& pose : mesh.poses) {
+    if (pose.positions.empty() && !mesh.positions.empty())
+      faults.add(Severity::kBroken, "wrong_array_size", 1, "a pose without positions");
+    check(pose.positions.size(), "positions of a pose");
+    check(pose.normals.size(), "normals of a pose");
+  }
   const std::size_t limit = std::numeric_limits<std::uint32_t>::max();
   if (mesh.positions.size() >= limit || mesh.indices.size() >= limit)
     faults.add(Severity::kBroken, "wrong_array_size", 1, "more than 2^32 - 2 vertices or indices");
@@ -170,9 +177,13 @@ std::vector<Fault> validate(const TriangleMesh& mesh, int threads) {
   check_materials(mesh, faults);
   faults.add(Severity::kBroken, "nonfinite_position",
              tally_vertices(mesh.positions, [](const Vec3& p) { return !is_finite(p); }), "vertex");
+  for (const Pose& pose : mesh.poses)
+    faults.add(Severity::kBroken, "nonfinite_position",
+               tally_vertices(pose.positions, [](const Vec3& p) { return !is_finite(p); }),
+               "vertex of a pose");
   if (!faults.empty()) return faults.take();
 
-  const WeldMap weld = weld_exact(mesh.positions);
+  const WeldMap weld = weld_points(mesh);
   const detail::TopologyScan scan = detail::scan_topology(mesh, weld, threads);
   const PlaceNames names(weld);
   check_surface(scan, names, faults);

@@ -133,6 +133,57 @@ WeldMap weld_exact(std::span<const Vec3> positions) {
   return weld;
 }
 
+namespace {
+
+// Vertices that both maps weld. Same order of numbers as ever: by their first vertex.
+WeldMap welded_by_both(const WeldMap& a, const WeldMap& b) {
+  const std::size_t count = a.class_of.size();
+  const std::size_t mask = table_size(count) - 1;
+  std::vector<std::uint32_t> first_vertex(mask + 1, kNone);
+  WeldMap weld;
+  weld.class_of.resize(count);
+  for (std::uint32_t v = 0; v < count; ++v) {
+    std::size_t slot = mix(a.class_of[v], b.class_of[v]) & mask;
+    const auto differs = [&](std::uint32_t other) {
+      return a.class_of[other] != a.class_of[v] || b.class_of[other] != b.class_of[v];
+    };
+    while (first_vertex[slot] != kNone && differs(first_vertex[slot])) slot = (slot + 1) & mask;
+    if (first_vertex[slot] == kNone) {
+      first_vertex[slot] = v;
+      weld.class_of[v] = weld.class_count++;
+    } else {
+      weld.class_of[v] = weld.class_of[first_vertex[slot]];
+    }
+  }
+  return weld;
+}
+
+// Joints and weights as places, so that those who follow the same joints are welded.
+WeldMap weld_skin(const std::vector<JointWeights>& skin) {
+  std::vector<Vec3> parts(skin.size());
+  const auto part = [&](const auto& place_of) {
+    for (std::size_t v = 0; v < skin.size(); ++v) parts[v] = place_of(skin[v]);
+    return weld_exact(parts);
+  };
+  const auto joints = part([](const JointWeights& s) {
+    return Vec3(s.joints[0] + 65536.0f * (s.joints[1] % 256),
+                s.joints[1] / 256 + 256.0f * s.joints[2], s.joints[3]);
+  });
+  const auto first =
+      part([](const JointWeights& s) { return Vec3(s.weights[0], s.weights[1], s.weights[2]); });
+  const auto last = part([](const JointWeights& s) { return Vec3(s.weights[3], 0, 0); });
+  return welded_by_both(welded_by_both(joints, first), last);
+}
+
+}  // namespace
+
+WeldMap weld_points(const TriangleMesh& mesh) {
+  WeldMap weld = weld_exact(mesh.positions);
+  for (const Pose& pose : mesh.poses) weld = welded_by_both(weld, weld_exact(pose.positions));
+  if (mesh.has_skin()) weld = welded_by_both(weld, weld_skin(mesh.skin));
+  return weld;
+}
+
 WeldMap weld_within(std::span<const Vec3> positions, float tolerance) {
   WeldMap weld = weld_exact(positions);
   if (!(tolerance > 0)) return weld;

@@ -1,7 +1,7 @@
 // Position classes: vertices at one place are one point of the surface, whatever their attributes.
 #pragma once
 
-#include <varifold/base/math.h>
+#include <varifold/mesh/triangle_mesh.h>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -17,6 +17,11 @@ struct WeldMap {
 
 /// Vertices are welded when their positions are equal; -0 equals 0. O(n) expected.
 [[nodiscard]] WeldMap weld_exact(std::span<const Vec3> positions);
+
+/// The points of a mesh: vertices are welded when their positions are equal at rest and in every
+/// pose, and they follow the same joints by the same weights, so that nothing can part them.
+/// Lips that touch at rest and open in a pose stay apart. O(n) expected for each pose.
+[[nodiscard]] WeldMap weld_points(const TriangleMesh& mesh);
 
 /// Vertices are welded when a chain of vertices joins them whose links are not longer than
 /// `tolerance` (>= 0, model units). O(n) expected while few vertices share a cell of that size.

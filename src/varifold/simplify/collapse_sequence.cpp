@@ -1,5 +1,6 @@
 #include <varifold/simplify/collapse_sequence.h>
 
+#include <varifold/mesh/vertex_arrays.h>
 #include <algorithm>
 
 namespace varifold {
@@ -76,11 +77,7 @@ TriangleMesh mesh_at_level(const DetailedMesh& detailed, std::uint32_t level) {
   }
 
   apply_placement(sequence, level, mesh);
-  const std::uint32_t live = sequence.vertices[level];
-  mesh.positions.resize(live);
-  if (mesh.has_normals()) mesh.normals.resize(live);
-  if (mesh.has_texcoords()) mesh.texcoords.resize(live);
-  if (mesh.has_colors()) mesh.colors.resize(live);
+  cut_vertices(mesh, sequence.vertices[level]);
   return mesh;
 }
 

@@ -4,6 +4,27 @@
 
 namespace varifold {
 
+namespace {
+
+bool is_finite(const Vec3& p) {
+  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
+std::string pose_fault(const TriangleMesh& mesh, const Pose& pose) {
+  if (pose.positions.size() != mesh.positions.size())
+    return std::to_string(pose.positions.size()) + " positions for " +
+           std::to_string(mesh.positions.size()) + " vertices";
+  if (!pose.normals.empty() && pose.normals.size() != mesh.positions.size())
+    return std::to_string(pose.normals.size()) + " normals for " +
+           std::to_string(mesh.positions.size()) + " vertices";
+  for (std::size_t v = 0; v < pose.positions.size(); ++v)
+    if (!is_finite(pose.positions[v]))
+      return "vertex " + std::to_string(v) + " has a position that is not finite";
+  return {};
+}
+
+}  // namespace
+
 std::string input_fault(const TriangleMesh& mesh) {
   const std::size_t vertices = mesh.positions.size();
   if (vertices >= kNone || mesh.indices.size() / 3 >= kNone / 3)
@@ -14,12 +35,15 @@ std::string input_fault(const TriangleMesh& mesh) {
       return "triangle " + std::to_string(i / 3) + " uses vertex " +
              std::to_string(mesh.indices[i]) + " of " + std::to_string(vertices);
   for (std::size_t v = 0; v < vertices; ++v)
-    for (int k = 0; k < 3; ++k)
-      if (!std::isfinite(mesh.positions[v][k]))
-        return "vertex " + std::to_string(v) + " has a position that is not finite";
+    if (!is_finite(mesh.positions[v]))
+      return "vertex " + std::to_string(v) + " has a position that is not finite";
   const auto fits = [&](std::size_t size) { return size == 0 || size == vertices; };
-  if (!fits(mesh.normals.size()) || !fits(mesh.texcoords.size()) || !fits(mesh.colors.size()))
+  if (!fits(mesh.normals.size()) || !fits(mesh.texcoords.size()) || !fits(mesh.colors.size()) ||
+      !fits(mesh.skin.size()))
     return "an attribute array has another size than the positions";
+  for (std::size_t i = 0; i < mesh.poses.size(); ++i)
+    if (std::string fault = pose_fault(mesh, mesh.poses[i]); !fault.empty())
+      return "pose " + std::to_string(i + 1) + ": " + fault;
   std::uint32_t next = 0;
   for (const MaterialRange& range : mesh.ranges) {
     if (range.first_triangle != next || range.triangle_count > mesh.triangle_count() - next)

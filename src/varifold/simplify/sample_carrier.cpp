@@ -14,7 +14,7 @@ namespace varifold {
 VerticesByPlace::VerticesByPlace(const TriangleMesh& mesh) {
   if (!mesh.has_normals() && !mesh.has_texcoords() && !mesh.has_colors() && mesh.ranges.size() <= 1)
     return;  // without attributes there is one vertex at a place
-  WeldMap weld = weld_exact(mesh.positions);
+  WeldMap weld = weld_points(mesh);
   first_.assign(weld.class_count + 1, 0);
   for (const std::uint32_t c : weld.class_of) ++first_[c + 1];
   for (std::size_t c = 1; c < first_.size(); ++c) first_[c] += first_[c - 1];

@@ -1,5 +1,6 @@
 #include <varifold/simplify/sequence_builder.h>
 
+#include <varifold/mesh/vertex_arrays.h>
 #include <algorithm>
 
 namespace varifold {
@@ -146,20 +147,13 @@ class SequenceBuilder {
     return sorted;
   }
 
-  template <class T>
-  void gather(const std::vector<T>& from, std::vector<T>& to) const {
-    if (from.empty()) return;
-    to.reserve(out_.original_vertex.size());
-    for (const std::uint32_t v : out_.original_vertex) to.push_back(from[v]);
-  }
-
   void gather_attributes() {
-    gather(mesh_.positions, out_.mesh.positions);
-    gather(mesh_.normals, out_.mesh.normals);
-    gather(mesh_.texcoords, out_.mesh.texcoords);
-    gather(mesh_.colors, out_.mesh.colors);
-    out_.mesh.materials = mesh_.materials;
-    out_.mesh.images = mesh_.images;
+    TriangleMesh mesh = gather_vertices(mesh_, out_.original_vertex);
+    mesh.indices = std::move(out_.mesh.indices);
+    mesh.ranges = std::move(out_.mesh.ranges);
+    mesh.materials = mesh_.materials;
+    mesh.images = mesh_.images;
+    out_.mesh = std::move(mesh);
   }
 
   void set_errors() {

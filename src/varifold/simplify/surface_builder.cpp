@@ -33,7 +33,7 @@ void drop_duplicates(std::vector<LinkEdge>& edges) {
 
 // Number the position classes along a Morton curve and scale them to a unit box.
 void SurfaceBuilder::make_points() {
-  WeldMap weld = weld_exact(mesh_.positions);
+  WeldMap weld = weld_points(mesh_);
   std::vector<std::uint32_t> first_vertex(weld.class_count, kNone);
   std::vector<Vec3> class_position(weld.class_count);
   Box box;

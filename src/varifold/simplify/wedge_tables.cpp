@@ -1,5 +1,6 @@
 #include <varifold/simplify/wedge_tables.h>
 
+#include <varifold/mesh/vertex_arrays.h>
 #include <varifold/simplify/working_surface.h>
 #include <algorithm>
 
@@ -31,12 +32,6 @@ class Maker {
   }
 
  private:
-  [[nodiscard]] bool equal(std::uint32_t a, std::uint32_t b) const {
-    return (!mesh_.has_normals() || mesh_.normals[a] == mesh_.normals[b]) &&
-           (!mesh_.has_texcoords() || mesh_.texcoords[a] == mesh_.texcoords[b]) &&
-           (!mesh_.has_colors() || mesh_.colors[a] == mesh_.colors[b]);
-  }
-
   void sort_vertices_by_point() {
     std::vector<bool> used(mesh_.vertex_count(), false);
     for (std::uint32_t t = 0; t < mesh_.triangle_count(); ++t)
@@ -73,7 +68,7 @@ class Maker {
   std::uint32_t find_equal(std::uint32_t first_wedge, std::uint32_t vertex) {
     const std::size_t end = std::min(out_.vertex_of.size(), first_wedge + kMaxSearched);
     for (std::size_t w = first_wedge; w < end; ++w)
-      if (equal(out_.vertex_of[w], vertex)) return static_cast<std::uint32_t>(w);
+      if (equal_attributes(mesh_, out_.vertex_of[w], vertex)) return static_cast<std::uint32_t>(w);
     out_.vertex_of.push_back(vertex);
     return static_cast<std::uint32_t>(out_.vertex_of.size() - 1);
   }

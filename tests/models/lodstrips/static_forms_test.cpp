@@ -4,6 +4,7 @@
 #include <tests/support/test_files.h>
 #include <varifold/base/random.h>
 #include <varifold/io/mesh_file.h>
+#include <varifold/mesh/vertex_arrays.h>
 #include <cstddef>
 #include <map>
 #include <span>
@@ -250,7 +251,7 @@ TEST(StaticFormSizes, AreThoseOfTheThesisAndBetter) {
       stripify(sequence.detailed.mesh, {.max_indices = kStaticStripIndices});
   const double vertices = sequence.detailed.mesh.vertex_count();
   const double shared =
-      attribute_bytes(sequence.detailed.mesh) / vertices + sequence.table.bytes() / vertices;
+      vertex_bytes(sequence.detailed.mesh) / vertices + sequence.table.bytes() / vertices;
   const double thesis = shared + build_thesis_form(sequence.detailed, strips).bytes() / vertices;
   const double grouped = shared + build_grouped_form(sequence.detailed, strips).bytes() / vertices;
   EXPECT_LE(thesis, 86);

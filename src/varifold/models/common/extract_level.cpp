@@ -1,5 +1,6 @@
 #include <varifold/models/common/extract_level.h>
 
+#include <varifold/mesh/vertex_arrays.h>
 #include <algorithm>
 #include <vector>
 
@@ -36,6 +37,12 @@ TriangleMesh extract_level(const TriangleMesh& attributes, std::uint32_t vertex_
   const auto prefix = [&](const auto& from, auto& to) {
     if (!from.empty()) to.assign(from.begin(), from.begin() + vertex_count);
   };
+  copy_pose_names(attributes, mesh);
+  prefix(attributes.skin, mesh.skin);
+  for (std::size_t i = 0; i < mesh.poses.size(); ++i) {
+    prefix(attributes.poses[i].positions, mesh.poses[i].positions);
+    prefix(attributes.poses[i].normals, mesh.poses[i].normals);
+  }
   prefix(list.positions, mesh.positions);
   prefix(list.normals, mesh.normals);
   prefix(list.texcoords, mesh.texcoords);
@@ -57,11 +64,6 @@ TriangleMesh extract_level(const TriangleMesh& attributes, std::uint32_t vertex_
       mesh.ranges.push_back({range.material, before, added});
   }
   return mesh;
-}
-
-std::size_t attribute_bytes(const TriangleMesh& mesh) {
-  return mesh.positions.size() * sizeof(Vec3) + mesh.normals.size() * sizeof(Vec3) +
-         mesh.texcoords.size() * sizeof(Vec2) + mesh.colors.size() * sizeof(Color);
 }
 
 }  // namespace varifold

@@ -1,5 +1,6 @@
 #include <varifold/models/lodstrips/lod_strips.h>
 
+#include <varifold/mesh/vertex_arrays.h>
 #include <varifold/models/common/extract_level.h>
 #include <varifold/models/common/level_table_bytes.h>
 #include <varifold/models/common/mesh_bytes.h>
@@ -57,7 +58,7 @@ LodStrips::LodStrips(LevelTable levels, TriangleMesh attributes, Form form)
 }
 
 std::size_t LodStrips::bytes() const {
-  return attribute_bytes(attributes_) + levels_.bytes() +
+  return vertex_bytes(attributes_) + levels_.bytes() +
          std::visit([](const auto& form) { return form.bytes(); }, form_);
 }
 

@@ -1,6 +1,6 @@
 #include <varifold/models/mts/multiresolution_strips.h>
 
-#include <varifold/models/common/extract_level.h>
+#include <varifold/mesh/vertex_arrays.h>
 
 namespace varifold {
 
@@ -11,7 +11,7 @@ MultiresolutionStrips::MultiresolutionStrips(MultiresolutionStripsData data)
 }
 
 std::size_t MultiresolutionStrips::bytes() const {
-  return attribute_bytes(data_.mesh) + data_.levels.bytes() +
+  return vertex_bytes(data_.mesh) + data_.levels.bytes() +
          data_.strips.size() * sizeof(MultiresolutionStripsData::Strip) +
          data_.arcs.size() * sizeof(MultiresolutionStripsData::Arc) +
          data_.node_arc.size() * sizeof(std::uint16_t) +

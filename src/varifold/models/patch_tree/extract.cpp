@@ -1,5 +1,6 @@
 #include <varifold/models/patch_tree/extract.h>
 
+#include <varifold/mesh/vertex_arrays.h>
 #include <varifold/mesh/weld.h>
 #include <algorithm>
 
@@ -10,7 +11,7 @@ namespace {
 // Merges vertices that are equal in everything, and drops triangles that have no area by that.
 class Merger {
  public:
-  explicit Merger(TriangleMesh& mesh) : mesh_(mesh), weld_(weld_exact(mesh.positions)) {}
+  explicit Merger(TriangleMesh& mesh) : mesh_(mesh), weld_(weld_points(mesh)) {}
 
   void merge() {
     find_equal();
@@ -33,18 +34,13 @@ class Merger {
   }
 
  private:
-  [[nodiscard]] bool equal(std::uint32_t a, std::uint32_t b) const {
-    return (!mesh_.has_normals() || mesh_.normals[a] == mesh_.normals[b]) &&
-           (!mesh_.has_texcoords() || mesh_.texcoords[a] == mesh_.texcoords[b]) &&
-           (!mesh_.has_colors() || mesh_.colors[a] == mesh_.colors[b]);
-  }
   // same_[v]: the first vertex that equals v.
   void find_equal() {
     std::vector<std::uint32_t> first(weld_.class_count, kNone), next(mesh_.vertex_count(), kNone);
     same_.resize(mesh_.vertex_count());
     for (std::uint32_t v = 0; v < mesh_.vertex_count(); ++v) {
       std::uint32_t* link = &first[weld_.class_of[v]];
-      while (*link != kNone && !equal(*link, v)) link = &next[*link];
+      while (*link != kNone && !equal_attributes(mesh_, *link, v)) link = &next[*link];
       if (*link == kNone) *link = v;
       same_[v] = *link;
     }
@@ -59,14 +55,15 @@ class Merger {
 class VertexCopies {
  public:
   VertexCopies(const TriangleMesh& from, TriangleMesh& to)
-      : from_(from), to_(to), copy_of_(from.vertex_count(), kNone) {}
+      : from_(from), to_(to), copy_of_(from.vertex_count(), kNone) {
+    copy_pose_names(from, to);
+  }
   std::uint32_t operator()(std::uint32_t v) {
     if (copy_of_[v] != kNone) return copy_of_[v];
     copy_of_[v] = to_.vertex_count();
-    to_.positions.push_back(from_.positions[v]);
-    if (from_.has_normals()) to_.normals.push_back(from_.normals[v]);
-    if (from_.has_texcoords()) to_.texcoords.push_back(from_.texcoords[v]);
-    if (from_.has_colors()) to_.colors.push_back(from_.colors[v]);
+    for_each_vertex_array(from_, to_, [&](const auto& values, auto& copies) {
+      if (!values.empty()) copies.push_back(values[v]);
+    });
     return copy_of_[v];
   }
 

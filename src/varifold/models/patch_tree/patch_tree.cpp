@@ -1,6 +1,6 @@
 #include <varifold/models/patch_tree/patch_tree.h>
 
-#include <varifold/models/common/extract_level.h>
+#include <varifold/mesh/vertex_arrays.h>
 #include <varifold/models/common/level_search.h>
 #include <varifold/models/common/uniform_model.h>
 #include <algorithm>
@@ -75,7 +75,7 @@ std::size_t PatchTree::bytes() const {
   const PatchTopology& t = data_.topology;
   return bytes_of(t.first_of_level) + bytes_of(t.parent) + bytes_of(t.first_child) +
          bytes_of(t.first_neighbor) + bytes_of(t.neighbors) + bytes_of(data_.bounds) +
-         bytes_of(data_.offsets) + attribute_bytes(data_.vertices) + bytes_of(data_.survivors) +
+         bytes_of(data_.offsets) + vertex_bytes(data_.vertices) + bytes_of(data_.survivors) +
          bytes_of(data_.controllers) + bytes_of(data_.corners) + bytes_of(data_.ranges) +
          bytes_of(level_errors_);
 }

@@ -1,5 +1,6 @@
 #include <varifold/models/pm/instance.h>
 
+#include <varifold/mesh/vertex_arrays.h>
 #include <varifold/models/common/extract_level.h>
 #include <varifold/view/draw_vertices.h>
 #include <algorithm>
@@ -165,9 +166,9 @@ DrawList ProgressiveMeshInstance::draw_list() {
 }
 
 std::size_t ProgressiveMeshInstance::bytes() const {
-  return (indices_.size() + range_counts_.size()) * sizeof(std::uint32_t) +
-         attribute_bytes(moved_) + ranges_.capacity() * sizeof(DrawRange) +
-         changed_indices_.bytes() + changed_vertices_.bytes();
+  return (indices_.size() + range_counts_.size()) * sizeof(std::uint32_t) + vertex_bytes(moved_) +
+         ranges_.capacity() * sizeof(DrawRange) + changed_indices_.bytes() +
+         changed_vertices_.bytes();
 }
 
 TriangleMesh ProgressiveMeshInstance::extract() const {

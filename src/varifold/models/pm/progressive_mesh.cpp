@@ -1,6 +1,6 @@
 #include <varifold/models/pm/progressive_mesh.h>
 
-#include <varifold/models/common/extract_level.h>
+#include <varifold/mesh/vertex_arrays.h>
 #include <varifold/models/common/level_search.h>
 #include <algorithm>
 #include <cmath>
@@ -68,7 +68,7 @@ std::uint32_t ProgressiveMesh::ancestor(std::uint32_t vertex, std::uint32_t leve
 std::size_t ProgressiveMesh::bytes() const {
   const auto words = data_.slots.size() + data_.target.size() + data_.triangle_level.size() +
                      data_.first_placed.size() + data_.placed_vertex.size() + data_.finer.size();
-  return attribute_bytes(data_.mesh) + attribute_bytes(data_.placed) +
+  return vertex_bytes(data_.mesh) + vertex_bytes(data_.placed) +
          data_.mesh.indices.size() * sizeof(std::uint32_t) +
          data_.splits.size() * sizeof(VertexSplit) + data_.error.size() * sizeof(float) +
          words * sizeof(std::uint32_t) + checkpoints_.size() * sizeof(Counts);

@@ -1,6 +1,6 @@
 #include <varifold/models/strips/strip_framework.h>
 
-#include <varifold/models/common/extract_level.h>
+#include <varifold/mesh/vertex_arrays.h>
 #include <algorithm>
 #include <utility>
 
@@ -55,7 +55,7 @@ std::size_t StripFramework::bytes() const {
   const std::size_t words = data_.dependencies.size() + data_.radius.size() + data_.cone.size() +
                             data_.slivers.size() + first_slot_.size() + strip_range_.size() +
                             slots_.size();
-  return attribute_bytes(data_.mesh) + data_.levels.bytes() + words * sizeof(std::uint32_t) +
+  return vertex_bytes(data_.mesh) + data_.levels.bytes() + words * sizeof(std::uint32_t) +
          data_.error_codes.size() * sizeof(std::uint16_t) + records_.size() * sizeof(NestedRange);
 }
 

@@ -1,6 +1,6 @@
 #include <varifold/models/vdpm/view_dependent_mesh.h>
 
-#include <varifold/models/common/extract_level.h>
+#include <varifold/mesh/vertex_arrays.h>
 #include <algorithm>
 #include <utility>
 
@@ -24,9 +24,9 @@ std::size_t ViewDependentMesh::bytes() const {
                             data_.base_triangles.size() + data_.first_placed.size() +
                             data_.placed_vertex.size() + data_.finer.size() +
                             data_.first_look.size();
-  return attribute_bytes(data_.mesh) + data_.levels.bytes() +
+  return vertex_bytes(data_.mesh) + data_.levels.bytes() +
          data_.bounds.size() * sizeof(PackedBounds) + data_.records.bytes() +
-         words * sizeof(std::uint32_t) + attribute_bytes(data_.placed);
+         words * sizeof(std::uint32_t) + vertex_bytes(data_.placed);
 }
 
 }  // namespace varifold

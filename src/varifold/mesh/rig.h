@@ -1,0 +1,60 @@
+// What moves a mesh: nodes, joints and animations, as in glTF 2.0.
+#pragma once
+
+#include <varifold/base/math.h>
+#include <cstdint>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat4x4.hpp>
+#include <string>
+#include <vector>
+
+namespace varifold {
+
+using Mat4 = glm::mat4;
+using Quat = glm::quat;
+
+/// A place relative to its parent: either a matrix or translation * rotation * scale. Only the
+/// latter can be animated.
+struct RigNode {
+  std::string name;
+  std::uint32_t parent = kNone;  ///< always before its children
+  bool has_matrix = false;
+  Mat4 matrix{1};
+  Vec3 translation{0};
+  Quat rotation{1, 0, 0, 0};
+  Vec3 scale{1};
+};
+
+struct Joint {
+  std::uint32_t node = 0;  ///< in Rig::nodes
+  Mat4 inverse_bind{1};    ///< from the mesh to the joint's own frame in the pose of the binding
+};
+
+enum class ChannelTarget : std::uint8_t { kTranslation, kRotation, kScale, kPoseWeights };
+enum class Interpolation : std::uint8_t { kStep, kLinear, kCubicSpline };
+
+/// How one property changes with time.
+struct AnimationChannel {
+  ChannelTarget target = ChannelTarget::kTranslation;
+  /// The node; for weights of poses the first of TriangleMesh::poses that it moves.
+  std::uint32_t index = 0;
+  std::uint32_t width = 3;  ///< values a key: 3, 4 (x, y, z, w), 3 or the number of poses
+  Interpolation interpolation = Interpolation::kLinear;
+  std::vector<float> times;   ///< seconds, ascending
+  std::vector<float> values;  ///< `width` a key; with kCubicSpline in-tangent, value, out-tangent
+};
+
+struct Animation {
+  std::string name;
+  std::vector<AnimationChannel> channels;
+};
+
+/// Immutable and shared by all levels of a mesh.
+struct Rig {
+  std::vector<RigNode> nodes;
+  std::vector<Joint> joints;
+  std::vector<float> pose_weights;  ///< of TriangleMesh::poses where nothing is animated; or empty
+  std::vector<Animation> animations;
+};
+
+}  // namespace varifold
