@@ -79,12 +79,12 @@ std::optional<MeshFormat> mesh_format(std::span<const std::byte> file,
 }
 
 Result<ImportedMesh> decode_mesh(std::span<const std::byte> file, MeshFormat format,
-                                 const std::filesystem::path& folder) {
+                                 const std::filesystem::path& folder, FaceReading faces) {
   switch (format) {
     case MeshFormat::kPly:
-      return read_ply(file);
+      return read_ply(file, faces);
     case MeshFormat::kObj:
-      return read_obj(file, folder);
+      return read_obj(file, folder, faces);
     case MeshFormat::kStl:
       return read_stl(file);
     case MeshFormat::kGltf:
@@ -94,12 +94,12 @@ Result<ImportedMesh> decode_mesh(std::span<const std::byte> file, MeshFormat for
   return fail(ErrorKind::kUnsupported, "no such format");
 }
 
-Result<ImportedMesh> read_mesh(const std::filesystem::path& path) {
+Result<ImportedMesh> read_mesh(const std::filesystem::path& path, FaceReading faces) {
   const auto file = MappedFile::open(path);
   if (!file) return tl::unexpected(file.error());
   const auto format = mesh_format(file->bytes(), path);
   const auto folder = path.has_parent_path() ? path.parent_path() : ".";
-  auto result = format ? decode_mesh(file->bytes(), *format, folder)
+  auto result = format ? decode_mesh(file->bytes(), *format, folder, faces)
                        : Result<ImportedMesh>(unknown_format(file->bytes()));
   if (!result) return fail_in(path.string(), std::move(result.error()));
   return result;

@@ -22,12 +22,14 @@ enum class MeshFormat { kPly, kObj, kStl, kGltf, kGlb };
 /// an empty folder no file is opened.
 /// Errors: kInvalidInput or kUnsupported; the message begins with the place in the file.
 [[nodiscard]] Result<ImportedMesh> decode_mesh(std::span<const std::byte> file, MeshFormat format,
-                                               const std::filesystem::path& folder = {});
+                                               const std::filesystem::path& folder = {},
+                                               FaceReading faces = FaceReading::kForUse);
 
 /// Reads a mesh file: PLY, OBJ, STL, glTF or GLB. O(file) time and memory.
 /// Errors: kUnreadable, kInvalidInput, kUnsupported; the message begins with the path:
 /// "bunny.ply: line 12: ...".
-[[nodiscard]] Result<ImportedMesh> read_mesh(const std::filesystem::path& path);
+[[nodiscard]] Result<ImportedMesh> read_mesh(const std::filesystem::path& path,
+                                             FaceReading faces = FaceReading::kForUse);
 
 /// Writes a mesh by the extension of `path`: .ply (binary), .obj (with a .mtl file and image files
 /// beside it where there are materials) or .glb. Files appear whole or not at all. What the format

@@ -26,7 +26,8 @@ namespace varifold {
 ///
 /// O(file). Errors: kInvalidInput, "line 12: ...".
 [[nodiscard]] Result<ImportedMesh> read_obj(std::span<const std::byte> file,
-                                            const std::filesystem::path& folder = {});
+                                            const std::filesystem::path& folder = {},
+                                            FaceReading faces = FaceReading::kForUse);
 
 /// An OBJ file and what belongs beside it.
 struct ObjFiles {

@@ -45,8 +45,9 @@ struct IndexedList {
 
 class ObjReader {
  public:
-  ObjReader(std::string_view file, std::string_view joined, const std::filesystem::path& folder)
-      : file_(file), text_(joined), folder_(folder) {}
+  ObjReader(std::string_view file, std::string_view joined, const std::filesystem::path& folder,
+            FaceReading faces)
+      : file_(file), text_(joined), folder_(folder), faces_(faces) {}
 
   Result<ImportedMesh> read() {
     while (!text_.at_end()) {
@@ -283,7 +284,7 @@ class ObjReader {
       mesh_.positions = std::move(positions_.values);
       mesh_.colors = std::move(colors_);
     }
-    polygons_.cut_concave();
+    if (faces_ == FaceReading::kForUse) polygons_.cut_concave();
     const auto without_normal =
         static_cast<std::size_t>(std::count(has_no_normal_.begin(), has_no_normal_.end(), true));
     if (without_normal > 0) fill_missing_normals(mesh_, has_no_normal_);
@@ -292,6 +293,7 @@ class ObjReader {
     ImportedMesh imported;
     imported.mesh = std::move(mesh_);
     imported.warnings = std::move(warnings_);
+    imported.file_vertices = std::move(file_vertices_);
     polygons_.warn(imported);
     warn_count(imported, unused_, "vertices that no face uses were dropped");
     warn_count(imported, without_texcoord_, "vertices without texture coordinate got (0, 0)");
@@ -315,7 +317,9 @@ class ObjReader {
     mesh_.positions.reserve(wedges.size());
     if (texcoords_.largest > 0) mesh_.texcoords.reserve(wedges.size());
     if (normals_.largest > 0) mesh_.normals.reserve(wedges.size());
+    file_vertices_.reserve(wedges.size());
     for (const Wedge& wedge : wedges) {
+      file_vertices_.push_back(wedge.position);
       is_used[wedge.position] = true;
       mesh_.positions.push_back(positions_.values[wedge.position]);
       if (!colors_.empty()) mesh_.colors.push_back(colors_[wedge.position]);
@@ -334,7 +338,7 @@ class ObjReader {
   }
 
   void set_materials() {
-    if (!has_materials_) return;
+    if (!has_materials_ || faces_ == FaceReading::kAsInFile) return;
     std::size_t unknown = 0;
     for (const std::string& name : material_names_)
       unknown += library_.append_to(mesh_, name) || name.empty() ? 0 : 1;
@@ -348,6 +352,7 @@ class ObjReader {
   std::string_view file_;
   TextScanner text_;
   const std::filesystem::path& folder_;
+  FaceReading faces_;
   bool is_obj_ = false;
 
   IndexedList<Vec3> positions_{"vertex", {}, 0, 0};
@@ -377,17 +382,18 @@ class ObjReader {
   std::size_t unused_ = 0;
   std::size_t without_texcoord_ = 0;
   std::vector<bool> has_no_normal_;
+  std::vector<std::uint32_t> file_vertices_;
   std::string unknown_;
 };
 
 }  // namespace
 
-Result<ImportedMesh> read_obj(std::span<const std::byte> file,
-                              const std::filesystem::path& folder) {
+Result<ImportedMesh> read_obj(std::span<const std::byte> file, const std::filesystem::path& folder,
+                              FaceReading faces) {
   std::string_view text = as_text(file);
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   const std::string joined = join_continued_lines(text);
-  return ObjReader(text, joined.empty() ? text : std::string_view(joined), folder).read();
+  return ObjReader(text, joined.empty() ? text : std::string_view(joined), folder, faces).read();
 }
 
 }  // namespace varifold

@@ -21,7 +21,8 @@ namespace varifold {
 ///
 /// O(file). Errors: kInvalidInput, "line 12: ..." in the header and in ASCII files, "byte 345: ..."
 /// and the number of the element in binary ones.
-[[nodiscard]] Result<ImportedMesh> read_ply(std::span<const std::byte> file);
+[[nodiscard]] Result<ImportedMesh> read_ply(std::span<const std::byte> file,
+                                            FaceReading faces = FaceReading::kForUse);
 
 struct PlyOptions {
   bool ascii = false;  ///< text instead of binary little-endian; floats survive exactly in both

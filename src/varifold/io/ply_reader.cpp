@@ -22,8 +22,8 @@ using ply::Type;
 /// Walks over the body of a PLY file, element after element.
 class BodyReader {
  public:
-  BodyReader(const ply::Header& header, std::span<const std::byte> file)
-      : header_(header), file_(file), at_(header.body), text_(as_text(file)) {
+  BodyReader(const ply::Header& header, std::span<const std::byte> file, FaceReading faces)
+      : header_(header), file_(file), faces_(faces), at_(header.body), text_(as_text(file)) {
     text_.advance(header.body);
   }
 
@@ -345,7 +345,7 @@ class BodyReader {
     const std::size_t left = is_ascii() ? text_.remaining() : file_.size() - at_;
     if (left > 0) warnings_.push_back(fmt::format("{} bytes after the last element", left));
     if (auto checked = check_positions(mesh_); !checked) return tl::unexpected(checked.error());
-    polygons_.cut_concave();
+    if (faces_ == FaceReading::kForUse) polygons_.cut_concave();
     if (!header_.texture_file.empty() && mesh_.has_texcoords()) add_texture();
     ImportedMesh imported;
     imported.warnings = std::move(warnings_);
@@ -369,6 +369,7 @@ class BodyReader {
 
   const ply::Header& header_;
   std::span<const std::byte> file_;
+  FaceReading faces_;
   std::size_t at_;    ///< in binary files
   TextScanner text_;  ///< in ASCII files
   std::uint64_t vertex_count_ = 0;
@@ -380,10 +381,10 @@ class BodyReader {
 
 }  // namespace
 
-Result<ImportedMesh> read_ply(std::span<const std::byte> file) {
+Result<ImportedMesh> read_ply(std::span<const std::byte> file, FaceReading faces) {
   auto header = ply::read_header(as_text(file));
   if (!header) return tl::unexpected(header.error());
-  return BodyReader(*header, file).read();
+  return BodyReader(*header, file, faces).read();
 }
 
 }  // namespace varifold
