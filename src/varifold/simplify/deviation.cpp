@@ -16,31 +16,33 @@ constexpr float kRounding = 1 + 1e-5f;
 // The same for a mesh that takes several shapes.
 class InShapes {
  public:
-  InShapes(const DetailedMesh& detailed, std::uint32_t shares)
-      : shapes_(detailed), finders_(shares) {
+  InShapes(const DetailedMesh& detailed, std::uint32_t shares) : shapes_(detailed) {
     for (std::uint32_t share = 0; share < shares; ++share)
-      for (const SurfaceSample& sample : surface_samples(detailed, {0, 0, share, shares}))
-        finders_[share].vertices.push_back(sample.vertex);
+      finders_.push_back({surface_samples(detailed, {0, 0, share, shares}), SampleShapes(shapes_)});
   }
 
   // The greatest bound of the samples that the next collapse moves.
   [[nodiscard]] float collapse(std::uint32_t share, SampleCarrier& carrier) {
     Finder& finder = finders_[share];
     if (!finder.nearest) finder.nearest.emplace(shapes_, carrier.corners());
-    float greatest = 0;
-    carrier.collapse(finder, [&](const SampleCarrier::Sample&, const Vec3&) {
-      greatest = std::max(greatest, finder.nearest->bound());
-    });
-    return greatest;
+    finder.greatest = 0;
+    carrier.collapse(finder, [](const SampleCarrier::Sample&, const Vec3&) {});
+    return finder.greatest;
   }
 
  private:
   struct Finder {
-    std::vector<std::uint32_t> vertices;  // of the samples of a share
+    std::vector<SurfaceSample> samples;
+    SampleShapes shapes;
     std::optional<NearestInShapes> nearest;
+    float greatest = 0;
+
     void reset(const std::vector<StarTriangle>& triangles) { nearest->reset(triangles); }
     std::size_t find(const SampleCarrier::Sample& sample) {
-      return nearest->find(vertices[sample.number]);
+      const std::span<const Vec3> at = shapes.of(samples[sample.number]);
+      const std::size_t found = nearest->find(at);
+      greatest = std::max(greatest, nearest->greatest_way(at));
+      return found;
     }
   };
   ShapeTable shapes_;

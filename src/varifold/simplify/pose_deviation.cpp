@@ -20,52 +20,40 @@ NearestInShapes::CornerPlaces NearestInShapes::places(std::size_t number) const 
   return {shapes_.of(v[0]), shapes_.of(v[1]), shapes_.of(v[2])};
 }
 
-// Squared; not below `enough`, from where on the triangle does not matter.
-float NearestInShapes::greatest_distance(std::span<const Vec3> at, const CornerPlaces& corners,
-                                         float enough) const {
-  float greatest = 0;
-  for (std::size_t i = 0; i < at.size() && greatest < enough; ++i) {
-    const Vec3 p = at[i];
-    const Vec3 way =
-        closest_on_triangle(corners.a[i] - p, corners.b[i] - p, corners.c[i] - p).position;
-    greatest = std::max(greatest, glm::dot(way, way));
-  }
-  return greatest;
+namespace {
+
+TrianglePoint nearest_point(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+  return closest_on_triangle(a - p, b - p, c - p);
 }
 
-float NearestInShapes::bound_of(std::span<const Vec3> at, const CornerPlaces& corners) {
-  const std::size_t count = at.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    const Vec3 p = at[i];
-    const TrianglePoint nearest =
-        closest_on_triangle(corners.a[i] - p, corners.b[i] - p, corners.c[i] - p);
-    weights_[i] = {nearest.along_b, nearest.along_c};
-  }
-  float greatest = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Vec3 a = corners.a[i], ab = corners.b[i] - a, ac = corners.c[i] - a, p = at[i];
-    for (std::size_t j = 0; j <= i; ++j) {
-      const Vec3 aj = corners.a[j], abj = corners.b[j] - aj, acj = corners.c[j] - aj;
-      const Vec3 way = a - p + weights_[j].x * ab + weights_[j].y * ac + (aj - at[j]) +
-                       weights_[i].x * abj + weights_[i].y * acj;
-      greatest = std::max(greatest, glm::dot(way, way));
-    }
-  }
-  return 0.5f * std::sqrt(greatest);
-}
+}  // namespace
 
-std::size_t NearestInShapes::find(std::uint32_t vertex) {
-  const std::span<const Vec3> at = shapes_.of(vertex);
+std::size_t NearestInShapes::find(std::span<const Vec3> at) {
   std::size_t best = 0;
   float least = std::numeric_limits<float>::infinity();
-  for (std::size_t i = 0; i < triangles_->size(); ++i) {
-    const float distance = greatest_distance(at, places(i), least);
-    if (!(distance < least)) continue;
-    least = distance;
-    best = i;
+  for (std::size_t number = 0; number < triangles_->size(); ++number) {
+    const CornerPlaces corners = places(number);
+    float greatest = 0;
+    for (std::size_t i = 0; i < at.size() && greatest < least; ++i) {
+      const Vec3 way = nearest_point(at[i], corners.a[i], corners.b[i], corners.c[i]).position;
+      greatest = std::max(greatest, glm::dot(way, way));
+    }
+    if (!(greatest < least)) continue;
+    least = greatest;
+    best = number;
   }
-  bound_ = bound_of(at, places(best));
+  found_ = places(best);
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const TrianglePoint nearest = nearest_point(at[i], found_.a[i], found_.b[i], found_.c[i]);
+    weights_[i] = {nearest.along_b, nearest.along_c};
+  }
   return best;
+}
+
+float NearestInShapes::greatest_way(std::span<const Vec3> at) const {
+  float greatest = 0;
+  for_each_way(at, [&](const Vec3& way) { greatest = std::max(greatest, glm::dot(way, way)); });
+  return std::sqrt(greatest);
 }
 
 }  // namespace varifold

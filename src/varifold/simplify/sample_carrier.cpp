@@ -112,14 +112,14 @@ void for_each_sample(const DetailedMesh& detailed, const SampleOptions& options,
     if (place + kAhead < order.size()) __builtin_prefetch(&all.groups[order[place + kAhead]]);
     const SampleGroup& group = all.groups[order[place]];
     if (group.to == kNone) {
-      f(SurfaceSample{all.places[order[place]], group.triangle, group.from});
+      f(SurfaceSample{all.places[order[place]], group.triangle, group.from, group.from, 0});
       continue;
     }
     const Vec3 a = mesh.positions[group.from], way = mesh.positions[group.to] - a;
     const float released_at = kReleaseAt * glm::dot(way, way);
     for (std::uint32_t i = 1; i <= options.on_edges; ++i) {
       const float part = static_cast<float>(i) / static_cast<float>(options.on_edges + 1);
-      f(SurfaceSample{a + part * way, group.triangle, kNone,
+      f(SurfaceSample{a + part * way, group.triangle, group.from, group.to, part,
                       2 * i == options.on_edges + 1 ? 2 * released_at : released_at});
     }
   }

@@ -39,7 +39,9 @@ class VerticesByPlace {
 struct SurfaceSample {
   Vec3 position;
   std::uint32_t triangle;
-  std::uint32_t vertex = kNone;  ///< where it is one
+  /// It is `part` of the way between two vertices; kNone where it lies inside a triangle.
+  std::uint32_t from = kNone, to = kNone;
+  float part = 0;
   /// The sample is let go when it comes to a triangle of this area, doubled; beside such ones its
   /// neighbours tell as much.
   float released_at = std::numeric_limits<float>::infinity();
