@@ -59,51 +59,51 @@ std::vector<std::uint64_t> whole_items(const JsonElement& array) {
 
 }  // namespace
 
-std::vector<Instance> collect_instances(const JsonElement& root) {
-  std::vector<Instance> instances;
+Scene collect_scene(const JsonElement& root) {
+  Scene scene;
   const JsonElement nodes = root.array("nodes");
   const JsonElement scenes = root.array("scenes");
   if (nodes.size() == 0) {
     for (std::size_t i = 0; i < root.array("meshes").size(); ++i)
-      instances.push_back(Instance{i, glm::dmat4(1)});
-    return instances;
+      scene.nodes.push_back({kNone, kNone, true, i, glm::dmat4(1)});
+    return scene;
   }
   const bool has_scene = root.has("scene") || scenes.size() > 0;
-  std::vector<std::uint64_t> roots =
+  const std::vector<std::uint64_t> roots =
       has_scene ? whole_items(scenes.item(root.whole("scene", 0)).array("nodes"))
                 : parentless(nodes);
 
-  std::vector<glm::dmat4> transforms{glm::dmat4(1)};  // of nodes with children
   struct Visit {
     std::uint64_t node;
-    std::size_t parent;  ///< in transforms
+    std::uint32_t parent;  ///< in Scene::nodes
   };
   std::vector<Visit> stack;
-  const auto push = [&](const std::vector<std::uint64_t>& ids, std::size_t parent) {
+  const auto push = [&](const std::vector<std::uint64_t>& ids, std::uint32_t parent) {
     std::for_each(ids.rbegin(), ids.rend(), [&](std::uint64_t id) {
       stack.push_back({id, parent});
     });
   };
-  push(roots, 0);
-  std::vector<bool> is_visited(nodes.size(), false);
+  push(roots, kNone);
+  scene.place_of.assign(nodes.size(), kNone);
   while (!stack.empty()) {
     const Visit visit = stack.back();
     stack.pop_back();
     const JsonElement node = nodes.item(visit.node);
-    if (!node.exists()) return instances;
-    if (is_visited[visit.node]) {
+    if (!node.exists()) return scene;
+    if (scene.place_of[visit.node] != kNone) {
       node.fault("is reached twice: nodes form a cycle, or one has two parents");
-      return instances;
+      return scene;
     }
-    is_visited[visit.node] = true;
-    const glm::dmat4 transform = transforms[visit.parent] * local_transform(node);
-    if (node.has("mesh")) instances.push_back({node.whole("mesh"), transform});
-    const std::vector<std::uint64_t> children = whole_items(node.array("children"));
-    if (children.empty()) continue;
-    transforms.push_back(transform);
-    push(children, transforms.size() - 1);
+    const auto place = static_cast<std::uint32_t>(scene.nodes.size());
+    scene.place_of[visit.node] = place;
+    const bool has_mesh = node.has("mesh");
+    const glm::dmat4 local = local_transform(node);
+    scene.nodes.push_back(
+        {visit.node, visit.parent, has_mesh, has_mesh ? node.whole("mesh") : 0,
+         visit.parent == kNone ? local : scene.nodes[visit.parent].transform * local});
+    push(whole_items(node.array("children")), place);
   }
-  return instances;
+  return scene;
 }
 
 }  // namespace varifold::gltf

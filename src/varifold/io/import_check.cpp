@@ -1,6 +1,7 @@
 #include <varifold/io/import_check.h>
 
 #include <fmt/format.h>
+#include <varifold/mesh/rig.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -41,6 +42,19 @@ Result<void> check_sizes(const TriangleMesh& mesh) {
 
 Result<void> check_contents(const TriangleMesh& mesh) {
   if (auto positions = check_positions(mesh); !positions) return positions;
+  for (const Pose& pose : mesh.poses) {
+    const auto bad = std::find_if_not(pose.positions.begin(), pose.positions.end(),
+                                      [](const Vec3& p) { return is_finite(p); });
+    if (bad != pose.positions.end())
+      return fail(ErrorKind::kInvalidInput,
+                  fmt::format("pose {}: vertex {}: position is not finite", in_quotes(pose.name),
+                              bad - pose.positions.begin()));
+  }
+  const std::size_t joints = mesh.rig ? mesh.rig->joints.size() : 0;
+  for (const JointWeights& followed : mesh.skin)
+    for (const std::uint16_t joint : followed.joints)
+      if (joint >= joints)
+        return fail(ErrorKind::kInvalidInput, "the skin does not fit the joints");
   for (std::size_t i = 0; i < mesh.indices.size(); ++i)
     if (mesh.indices[i] >= mesh.positions.size())
       return fail(ErrorKind::kInvalidInput,
@@ -71,7 +85,9 @@ Result<ImportedMesh> finish_import(ImportedMesh imported) {
   if (auto sizes = check_sizes(mesh); !sizes) return tl::unexpected(std::move(sizes.error()));
   if (auto contents = check_contents(mesh); !contents)
     return tl::unexpected(std::move(contents.error()));
-  warn_count(imported, repair(mesh.normals), "normals that are not finite were set to zero");
+  std::size_t normals = repair(mesh.normals);
+  for (Pose& pose : mesh.poses) normals += repair(pose.normals);
+  warn_count(imported, normals, "normals that are not finite were set to zero");
   warn_count(imported, repair(mesh.texcoords),
              "texture coordinates that are not finite were set to zero");
   if (mesh.indices.empty()) imported.warnings.emplace_back("no triangles");

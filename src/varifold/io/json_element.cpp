@@ -107,6 +107,22 @@ JsonElement JsonElement::array(std::string_view key) const {
   return {value, std::move(path), *faults_};
 }
 
+JsonElement JsonElement::object_if(std::string_view key) const {
+  const json* value = find(key);
+  return {value && value->is_object() ? value : nullptr, path_of(key), *faults_};
+}
+
+std::vector<std::string> JsonElement::texts_if(std::string_view key) const {
+  const json* const value = find(key);
+  if (!value || !value->is_array()) return {};
+  std::vector<std::string> texts;
+  for (const json& item : *value) {
+    if (!item.is_string()) return {};
+    texts.push_back(item.get<std::string>());
+  }
+  return texts;
+}
+
 std::size_t JsonElement::size() const { return value_ && value_->is_array() ? value_->size() : 0; }
 
 JsonElement JsonElement::item(std::size_t index) const {

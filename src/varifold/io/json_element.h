@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace varifold {
 
@@ -40,6 +41,10 @@ class JsonElement {
   /// The member `key`, which must be an object (an array) where it is present.
   [[nodiscard]] JsonElement object(std::string_view key) const;
   [[nodiscard]] JsonElement array(std::string_view key) const;
+  /// Members that may hold anything, such as extras: nothing, without a fault, where it is not an
+  /// object (an array of strings).
+  [[nodiscard]] JsonElement object_if(std::string_view key) const;
+  [[nodiscard]] std::vector<std::string> texts_if(std::string_view key) const;
 
   /// Of an array: its length, 0 where nothing is; and an item, which must be an object.
   [[nodiscard]] std::size_t size() const;

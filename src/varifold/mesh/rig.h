@@ -50,6 +50,9 @@ struct Animation {
 };
 
 /// Immutable and shared by all levels of a mesh.
+///
+/// Joints move the vertices that follow them from the space of the mesh to the world: see
+/// rig_pose.h. All numbers are finite, nodes come after their parents, and indices are in range.
 struct Rig {
   std::vector<RigNode> nodes;
   std::vector<Joint> joints;
