@@ -10,12 +10,14 @@
 namespace varifold::cli {
 
 void add_pose_sources(CLI::App& command, CLI::Option& mesh, PoseSources& sources) {
-  mesh.required(false);
+  mesh.required();
+  CLI::Option* const required = &mesh;
   command
       .add_option(
           "--poses", sources.files,
           "Other shapes of the mesh, files of the same triangles; without MESH the first is "
           "the mesh")
+      ->each([required](const std::string&) { required->required(false); })
       ->type_name("FILE...");
   command
       .add_option("--pose-samples", sources.samples_per_animation,
@@ -29,7 +31,6 @@ void add_pose_sources(CLI::App& command, CLI::Option& mesh, PoseSources& sources
 
 std::filesystem::path rest_path(const std::string& mesh, const PoseSources& sources) {
   if (!mesh.empty()) return input_path(mesh);
-  if (sources.files.empty()) wrong_usage("MESH is required");
   return input_path(sources.files.front());
 }
 
@@ -62,7 +63,7 @@ Result<PosedInput> read_posed_surface(const std::string& mesh, const PoseSources
 
 PoseUse pose_use(const PosedInput& input, const PoseSources& sources) {
   PoseUse use;
-  use.of_mesh = !sources.rest_only;
+  use.orders = !sources.rest_only;
   use.samples = input.samples;
   return use;
 }

@@ -173,7 +173,7 @@ TEST(Poses, FaultsAreNamed) {
   const std::vector<Pose> samples{{"short", {Vec3(0)}, {}}};
   SimplifyOptions options;
   options.poses.samples = samples;
-  EXPECT_EQ(message(test::cube(), options), "a sampled pose has 1 positions for 8 vertices");
+  EXPECT_EQ(message(test::cube(), options), "sample 0 of poses: 1 positions for 8 vertices");
 }
 
 // The figures that users are told: one sequence for all poses of a horse at 10 %.
@@ -188,7 +188,7 @@ TEST(Poses, OneSequenceServesAllPosesOfAHorse) {
   SimplifyOptions options;
   options.measure_error = false;
   const DetailedMesh shared = simplified(posed->mesh, options).detailed;
-  options.poses.of_mesh = false;
+  options.poses.orders = false;
   const DetailedMesh first = simplified(posed->mesh, options).detailed;
   const std::uint32_t budget = posed->mesh.triangle_count() / 10;
   const auto rms = [&](const DetailedMesh& detailed, std::size_t shape) {

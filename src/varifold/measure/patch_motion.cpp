@@ -1,5 +1,6 @@
 #include <varifold/measure/patch_motion.h>
 #include <varifold/measure/picture_projection.h>
+#include <varifold/mesh/vertex_arrays.h>
 #include <varifold/mesh/weld.h>
 #include <cmath>
 #include <utility>
@@ -16,11 +17,10 @@ struct Points {
 
 void add_level(const PatchTreeData& data, std::uint32_t level, Points& points) {
   const PatchTopology& topology = data.topology;
-  const std::vector<Vec3>& positions = data.vertices.positions;
   const std::uint32_t first = topology.first_of_level[level];
   const std::uint32_t last = topology.first_of_level[level + 1];
   const std::uint32_t base = data.offsets[first].vertex, end = data.offsets[last].vertex;
-  const WeldMap weld = weld_exact({positions.data() + base, positions.data() + end});
+  const WeldMap weld = weld_points(data.vertices, base, end);
   std::vector<std::uint32_t> point_of_class(weld.class_count, kNone);
   for (std::uint32_t node = first; node < last; ++node) {
     const std::uint32_t parent = topology.parent[node];
@@ -29,7 +29,7 @@ void add_level(const PatchTreeData& data, std::uint32_t level, Points& points) {
       if (point == kNone) {
         const std::uint32_t survivor =
             parent == kNone ? kNone : data.offsets[parent].vertex + data.survivors[v];
-        if (survivor != kNone && positions[survivor] == positions[v]) {
+        if (survivor != kNone && same_point(data.vertices, survivor, v)) {
           point = points.of_vertex[survivor];
         } else {
           point = static_cast<std::uint32_t>(points.targets.size());

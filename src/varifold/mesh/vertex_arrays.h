@@ -49,8 +49,15 @@ void for_each_vertex_array(const TriangleMesh& from, TriangleMesh& to, const Vis
 /// The first `count` vertices alone; triangles are left as they are.
 void cut_vertices(TriangleMesh& mesh, std::uint32_t count);
 
-/// Whether all attributes but the positions of two vertices are equal.
+/// Whether two vertices are at one point, as weld_points() has it.
+[[nodiscard]] bool same_point(const TriangleMesh& mesh, std::uint32_t a, std::uint32_t b);
+
+/// Whether all attributes but the places of two vertices are equal.
 [[nodiscard]] bool equal_attributes(const TriangleMesh& mesh, std::uint32_t a, std::uint32_t b);
+
+/// Whether vertices at one point may differ: in an attribute, or in the material of their
+/// triangles.
+[[nodiscard]] bool may_have_seams(const TriangleMesh& mesh);
 
 /// Memory of all arrays, images and indices apart.
 [[nodiscard]] std::size_t vertex_bytes(const TriangleMesh& mesh);

@@ -158,30 +158,34 @@ WeldMap welded_by_both(const WeldMap& a, const WeldMap& b) {
 namespace {
 
 // Joints and weights as places, so that those who follow the same joints are welded.
-WeldMap weld_skin(const std::vector<JointWeights>& skin) {
+WeldMap weld_skin(std::span<const JointWeights> skin) {
   std::vector<Vec3> parts(skin.size());
-  const auto part = [&](const auto& place_of) {
+  const auto weld_parts = [&](const auto& place_of) {
     for (std::size_t v = 0; v < skin.size(); ++v) parts[v] = place_of(skin[v]);
     return weld_exact(parts);
   };
-  const auto joints = part([](const JointWeights& s) {
-    return Vec3(s.joints[0] + 65536.0f * (s.joints[1] % 256),
-                s.joints[1] / 256 + 256.0f * s.joints[2], s.joints[3]);
-  });
-  const auto first =
-      part([](const JointWeights& s) { return Vec3(s.weights[0], s.weights[1], s.weights[2]); });
-  const auto last = part([](const JointWeights& s) { return Vec3(s.weights[3], 0, 0); });
-  return welded_by_both(welded_by_both(joints, first), last);
+  const auto first_joints =
+      weld_parts([](const JointWeights& s) { return Vec3(s.joints[0], s.joints[1], s.joints[2]); });
+  const auto first_weights = weld_parts(
+      [](const JointWeights& s) { return Vec3(s.weights[0], s.weights[1], s.weights[2]); });
+  const auto last =
+      weld_parts([](const JointWeights& s) { return Vec3(s.joints[3], s.weights[3], 0); });
+  return welded_by_both(welded_by_both(first_joints, first_weights), last);
 }
 
 }  // namespace
 
-WeldMap weld_points(const TriangleMesh& mesh) {
-  WeldMap weld = weld_exact(mesh.positions);
-  for (const Pose& pose : mesh.poses) weld = welded_by_both(weld, weld_exact(pose.positions));
-  if (mesh.has_skin()) weld = welded_by_both(weld, weld_skin(mesh.skin));
+WeldMap weld_points(const TriangleMesh& mesh, std::uint32_t first, std::uint32_t last) {
+  const auto part = [&](const auto& values) {
+    return std::span(values).subspan(first, last - first);
+  };
+  WeldMap weld = weld_exact(part(mesh.positions));
+  for (const Pose& pose : mesh.poses) weld = welded_by_both(weld, weld_exact(part(pose.positions)));
+  if (mesh.has_skin()) weld = welded_by_both(weld, weld_skin(part(mesh.skin)));
   return weld;
 }
+
+WeldMap weld_points(const TriangleMesh& mesh) { return weld_points(mesh, 0, mesh.vertex_count()); }
 
 WeldMap weld_within(std::span<const Vec3> positions, float tolerance) {
   WeldMap weld = weld_exact(positions);

@@ -22,6 +22,9 @@ struct WeldMap {
 /// pose, and they follow the same joints by the same weights, so that nothing can part them.
 /// Lips that touch at rest and open in a pose stay apart. O(n) expected for each pose.
 [[nodiscard]] WeldMap weld_points(const TriangleMesh& mesh);
+/// The same for the vertices [first, last) alone; entry 0 is that of `first`.
+[[nodiscard]] WeldMap weld_points(const TriangleMesh& mesh, std::uint32_t first,
+                                  std::uint32_t last);
 
 /// Welded are the vertices that both maps weld. O(n) expected.
 [[nodiscard]] WeldMap welded_by_both(const WeldMap& a, const WeldMap& b);

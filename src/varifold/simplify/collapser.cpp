@@ -37,10 +37,11 @@ struct Prefetcher {
 
 // From a point to the faces that would be there if it were gone; not below `enough`, where the
 // nearest need not be found. Those across from the target are the likeliest, so they come first.
-float squared_distance_after(const WorkingSurface& surface, std::uint32_t from, std::uint32_t onto,
-                             float enough) {
-  const Vec3 origin = surface.points[from].position;
-  const Vec3 apex = surface.points[onto].position - origin;
+template <class Places>
+float squared_distance_after(const WorkingSurface& surface, const Places& places,
+                             std::uint32_t from, std::uint32_t onto, float enough) {
+  const Vec3 origin = places.position(from);
+  const Vec3 apex = places.position(onto) - origin;
   const std::span ring(surface.ring(from), surface.points[from].ring_size);
   std::size_t at = 0;
   while (at < ring.size() && ring[at].neighbor != onto) ++at;
@@ -53,9 +54,9 @@ float squared_distance_after(const WorkingSurface& surface, std::uint32_t from, 
     const std::uint32_t m = ring[here].neighbor;
     const std::uint32_t n = ring[here + 1 == ring.size() ? 0 : here + 1].neighbor;
     if (ring[here].face == kNone || m == onto || n == onto) continue;
-    const Vec3 nearest = closest_on_triangle(apex, surface.points[m].position - origin,
-                                             surface.points[n].position - origin)
-                             .position;
+    const Vec3 nearest =
+        closest_on_triangle(apex, places.position(m) - origin, places.position(n) - origin)
+            .position;
     least = std::min(least, glm::dot(nearest, nearest));
   }
   return least;
@@ -224,8 +225,12 @@ std::uint32_t Collapser::due_bucket(std::uint32_t from, std::uint32_t onto, std:
   // Nearer than this there is nothing to wait for.
   const float free =
       std::sqrt(BucketQueue::least_cost(now) / options_.distance_weight) - state.error;
-  const float distance =
-      std::sqrt(squared_distance_after(surface_, from, onto, free > 0 ? free * free : 0.0f));
+  const float enough = free > 0 ? free * free : 0.0f;
+  float squared = squared_distance_after(surface_, RestPlaces(surface_), from, onto, enough);
+  for (std::uint32_t i = 0; poses && i < poses->pose_count(); ++i)
+    squared =
+        std::max(squared, squared_distance_after(surface_, poses->pose(i), from, onto, enough));
+  const float distance = std::sqrt(squared);
   state.step = std::max(state.step, distance);
   if (distance <= free) return now;
   const float moved = state.error + distance;

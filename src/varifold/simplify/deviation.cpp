@@ -18,13 +18,14 @@ class InShapes {
  public:
   InShapes(const DetailedMesh& detailed, std::uint32_t shares) : shapes_(detailed) {
     for (std::uint32_t share = 0; share < shares; ++share)
-      finders_.push_back({surface_samples(detailed, {0, 0, share, shares}), SampleShapes(shapes_)});
+      finders_.push_back({surface_samples(detailed, {0, 0, share, shares}), SampleShapes(shapes_),
+                          NearestInShapes(shapes_)});
   }
 
   // The greatest bound of the samples that the next collapse moves.
   [[nodiscard]] float collapse(std::uint32_t share, SampleCarrier& carrier) {
     Finder& finder = finders_[share];
-    if (!finder.nearest) finder.nearest.emplace(shapes_, carrier.corners());
+    finder.corners = &carrier.corners();
     finder.greatest = 0;
     carrier.collapse(finder, [](const SampleCarrier::Sample&, const Vec3&) {});
     return finder.greatest;
@@ -34,14 +35,16 @@ class InShapes {
   struct Finder {
     std::vector<SurfaceSample> samples;
     SampleShapes shapes;
-    std::optional<NearestInShapes> nearest;
+    NearestInShapes nearest;
+    const std::vector<std::uint32_t>* corners = nullptr;  // of the level
+    std::vector<NearestInShapes::Corners> triangles;
     float greatest = 0;
 
-    void reset(const std::vector<StarTriangle>& triangles) { nearest->reset(triangles); }
+    void reset(const std::vector<StarTriangle>& star) { gather_corners(star, *corners, triangles); }
     std::size_t find(const SampleCarrier::Sample& sample) {
       const std::span<const Vec3> at = shapes.of(samples[sample.number]);
-      const std::size_t found = nearest->find(at);
-      greatest = std::max(greatest, nearest->greatest_way(at));
+      const std::size_t found = nearest.find(at, triangles);
+      greatest = std::max(greatest, nearest.greatest_way(at));
       return found;
     }
   };

@@ -42,8 +42,8 @@ std::string input_fault(const TriangleMesh& mesh) {
       !fits(mesh.skin.size()))
     return "an attribute array has another size than the positions";
   for (std::size_t i = 0; i < mesh.poses.size(); ++i)
-    if (std::string fault = pose_fault(mesh, mesh.poses[i]); !fault.empty())
-      return "pose " + std::to_string(i + 1) + ": " + fault;
+    if (std::string found = pose_fault(mesh, mesh.poses[i]); !found.empty())
+      return "pose " + std::to_string(i + 1) + ": " + found;
   std::uint32_t next = 0;
   for (const MaterialRange& range : mesh.ranges) {
     if (range.first_triangle != next || range.triangle_count > mesh.triangle_count() - next)
@@ -52,6 +52,13 @@ std::string input_fault(const TriangleMesh& mesh) {
   }
   if (!mesh.ranges.empty() && next != mesh.triangle_count())
     return "the material ranges do not cover all triangles";
+  return {};
+}
+
+std::string sample_fault(const TriangleMesh& mesh, std::span<const Pose> samples) {
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    if (std::string found = pose_fault(mesh, samples[i]); !found.empty())
+      return "sample " + std::to_string(i) + " of poses: " + found;
   return {};
 }
 

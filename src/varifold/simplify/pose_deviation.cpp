@@ -15,9 +15,14 @@ ShapeTable::ShapeTable(const DetailedMesh& detailed) {
     for (const auto& shape : shapes) places_.push_back(shape[v]);
 }
 
-NearestInShapes::CornerPlaces NearestInShapes::places(std::size_t number) const {
-  const std::uint32_t* v = &corners_[3 * std::size_t{(*triangles_)[number].triangle}];
-  return {shapes_.of(v[0]), shapes_.of(v[1]), shapes_.of(v[2])};
+ShapeTable::ShapeTable(const WorkingSurface& surface, const PoseField& poses)
+    : count_(1 + poses.pose_count()) {
+  places_.reserve(count_ * surface.point_count());
+  for (std::uint32_t p = 0; p < surface.point_count(); ++p) {
+    places_.push_back(surface.points[p].position);
+    for (std::uint32_t i = 0; i < poses.pose_count(); ++i)
+      places_.push_back(poses.pose(i).position(p));
+  }
 }
 
 namespace {
@@ -28,11 +33,11 @@ TrianglePoint nearest_point(const Vec3& p, const Vec3& a, const Vec3& b, const V
 
 }  // namespace
 
-std::size_t NearestInShapes::find(std::span<const Vec3> at) {
+std::size_t NearestInShapes::find(std::span<const Vec3> at, std::span<const Corners> triangles) {
   std::size_t best = 0;
   float least = std::numeric_limits<float>::infinity();
-  for (std::size_t number = 0; number < triangles_->size(); ++number) {
-    const CornerPlaces corners = places(number);
+  for (std::size_t number = 0; number < triangles.size(); ++number) {
+    const CornerPlaces corners = places(triangles[number]);
     float greatest = 0;
     for (std::size_t i = 0; i < at.size() && greatest < least; ++i) {
       const Vec3 way = nearest_point(at[i], corners.a[i], corners.b[i], corners.c[i]).position;
@@ -42,7 +47,7 @@ std::size_t NearestInShapes::find(std::span<const Vec3> at) {
     least = greatest;
     best = number;
   }
-  found_ = places(best);
+  found_ = places(triangles[best]);
   for (std::size_t i = 0; i < at.size(); ++i) {
     const TrianglePoint nearest = nearest_point(at[i], found_.a[i], found_.b[i], found_.c[i]);
     weights_[i] = {nearest.along_b, nearest.along_c};

@@ -3,8 +3,10 @@
 
 #include <varifold/base/math.h>
 #include <varifold/simplify/collapse_sequence.h>
+#include <varifold/simplify/pose_field.h>
 #include <varifold/simplify/sample_carrier.h>
 #include <varifold/simplify/star_triangles.h>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -17,6 +19,8 @@ namespace varifold {
 class ShapeTable {
  public:
   explicit ShapeTable(const DetailedMesh& detailed);
+  /// Of the points of a surface, in its units.
+  ShapeTable(const WorkingSurface& surface, const PoseField& poses);
   [[nodiscard]] std::size_t shape_count() const { return count_; }
   [[nodiscard]] std::span<const Vec3> of(std::uint32_t vertex) const {
     return {&places_[vertex * count_], count_};
@@ -46,6 +50,17 @@ class SampleShapes {
   std::vector<Vec3> between_;
 };
 
+/// The triangles of a star, by the numbers of their corners: what NearestInShapes asks for.
+inline void gather_corners(const std::vector<StarTriangle>& triangles,
+                           const std::vector<std::uint32_t>& corners,
+                           std::vector<std::array<std::uint32_t, 3>>& result) {
+  result.clear();
+  for (const StarTriangle& t : triangles) {
+    const std::uint32_t* corner = &corners[3 * std::size_t{t.triangle}];
+    result.push_back({corner[0], corner[1], corner[2]});
+  }
+}
+
 /// The triangle to which a point goes, and how far that is in every blend.
 ///
 /// In shape i the point is at P_i, and the nearest point of the triangle has the weights b_i. In
@@ -57,15 +72,13 @@ class SampleShapes {
 /// square of the sum of |w_i| at most.
 class NearestInShapes {
  public:
-  /// `corners` has three vertices a triangle, those of the level. Both must live on.
-  NearestInShapes(const ShapeTable& shapes, const std::vector<std::uint32_t>& corners)
-      : shapes_(shapes), corners_(corners), weights_(shapes.shape_count()) {}
+  explicit NearestInShapes(const ShapeTable& shapes)
+      : shapes_(shapes), weights_(shapes.shape_count()) {}
 
-  /// The triangles, at least one. They must live on.
-  void reset(const std::vector<StarTriangle>& triangles) { triangles_ = &triangles; }
-  /// The number of the triangle whose greatest distance in any shape is least, the first of those
-  /// at equal distances. O(shapes * triangles).
-  std::size_t find(std::span<const Vec3> at);
+  using Corners = std::array<std::uint32_t, 3>;  ///< numbers in the table
+  /// The place of the triangle whose greatest distance in any shape is least, the first of those at
+  /// equal distances. There is at least one. O(shapes * triangles).
+  std::size_t find(std::span<const Vec3> at, std::span<const Corners> triangles);
 
   /// visit(way) gets the ways from the point that was found last, as above. O(shapes^2).
   template <class Visit>
@@ -82,6 +95,8 @@ class NearestInShapes {
       }
     }
   }
+  /// Of the second and third corner at the nearest place of the shape at rest.
+  [[nodiscard]] const Vec2& weights_at_rest() const { return weights_[0]; }
   /// The length of the longest.
   [[nodiscard]] float greatest_way(std::span<const Vec3> at) const;
 
@@ -89,11 +104,11 @@ class NearestInShapes {
   struct CornerPlaces {
     std::span<const Vec3> a, b, c;
   };
-  [[nodiscard]] CornerPlaces places(std::size_t number) const;
+  [[nodiscard]] CornerPlaces places(const Corners& corners) const {
+    return {shapes_.of(corners[0]), shapes_.of(corners[1]), shapes_.of(corners[2])};
+  }
 
   const ShapeTable& shapes_;
-  const std::vector<std::uint32_t>& corners_;
-  const std::vector<StarTriangle>* triangles_ = nullptr;
   CornerPlaces found_;
   std::vector<Vec2> weights_;  // of b and c, in each shape
 };

@@ -2,6 +2,7 @@
 
 #include <varifold/base/parallel.h>
 #include <varifold/base/random.h>
+#include <varifold/mesh/vertex_arrays.h>
 #include <varifold/mesh/weld.h>
 #include <varifold/simplify/morton.h>
 #include <algorithm>
@@ -12,8 +13,7 @@
 namespace varifold {
 
 VerticesByPlace::VerticesByPlace(const TriangleMesh& mesh) {
-  if (!mesh.has_normals() && !mesh.has_texcoords() && !mesh.has_colors() && mesh.ranges.size() <= 1)
-    return;  // without attributes there is one vertex at a place
+  if (!may_have_seams(mesh)) return;  // without attributes there is one vertex at a place
   WeldMap weld = weld_points(mesh);
   first_.assign(weld.class_count + 1, 0);
   for (const std::uint32_t c : weld.class_of) ++first_[c + 1];

@@ -1,5 +1,6 @@
 #include <varifold/simplify/simplify.h>
 
+#include <varifold/mesh/vertex_arrays.h>
 #include <varifold/simplify/collapse_rounds.h>
 #include <varifold/simplify/deviation.h>
 #include <varifold/simplify/energy_collapser.h>
@@ -29,10 +30,6 @@ std::size_t steps_to_target(const CollapseLog& log, std::uint32_t faces, std::ui
   return steps;
 }
 
-bool needs_wedges(const TriangleMesh& mesh) {
-  return mesh.has_normals() || mesh.has_texcoords() || mesh.has_colors() || mesh.ranges.size() > 1;
-}
-
 // Cuts a sequence that is not wanted below `level`: that level becomes the base.
 void cut_below(DetailedMesh& detailed, std::uint32_t level) {
   CollapseSequence& sequence = detailed.sequence;
@@ -59,15 +56,6 @@ void cut_below(DetailedMesh& detailed, std::uint32_t level) {
   for (std::uint32_t& l : sequence.triangle_level) l = l > level ? l - level : 0;
 }
 
-// The shapes beside that at rest which count.
-std::vector<std::span<const Vec3>> other_shapes(const TriangleMesh& mesh, const PoseUse& use) {
-  std::vector<std::span<const Vec3>> shapes;
-  if (use.of_mesh)
-    for (const Pose& pose : mesh.poses) shapes.emplace_back(pose.positions);
-  for (const Pose& pose : use.samples) shapes.emplace_back(pose.positions);
-  return shapes;
-}
-
 std::vector<Pose> gather_samples(std::span<const Pose> samples,
                                  const std::vector<std::uint32_t>& original_vertex) {
   std::vector<Pose> gathered;
@@ -82,10 +70,6 @@ std::vector<Pose> gather_samples(std::span<const Pose> samples,
 
 // What the options ask for and poses stand in the way of; empty where nothing does.
 std::string pose_conflict(const TriangleMesh& mesh, const SimplifyOptions& options) {
-  for (const Pose& pose : options.poses.samples)
-    if (pose.positions.size() != mesh.positions.size())
-      return "a sampled pose has " + std::to_string(pose.positions.size()) + " positions for " +
-             std::to_string(mesh.positions.size()) + " vertices";
   if (mesh.poses.empty() && options.poses.samples.empty() && !mesh.has_skin()) return {};
   if (options.placement == Placement::kOptimal)
     return "vertices of a mesh with poses or a skin must stay where they are (placement kept)";
@@ -126,8 +110,9 @@ CollapseLog run_energy(const EnergyInput& input, const SimplifyOptions& options,
 }  // namespace
 
 Result<Simplification> simplify(const TriangleMesh& mesh, const SimplifyOptions& options) {
-  if (std::string fault = input_fault(mesh); !fault.empty())
-    return fail(ErrorKind::kInvalidInput, std::move(fault));
+  std::string fault = input_fault(mesh);
+  if (fault.empty()) fault = sample_fault(mesh, options.poses.samples);
+  if (!fault.empty()) return fail(ErrorKind::kInvalidInput, std::move(fault));
   if (std::string conflict = pose_conflict(mesh, options); !conflict.empty())
     return fail(ErrorKind::kUnsupported, std::move(conflict));
   const auto start = Clock::now();
@@ -135,7 +120,7 @@ Result<Simplification> simplify(const TriangleMesh& mesh, const SimplifyOptions&
 
   // Build the working surface.
   SurfaceOptions surface_options;
-  surface_options.with_wedges = needs_wedges(mesh);
+  surface_options.with_wedges = may_have_seams(mesh);
   surface_options.threads = options.threads;
   WorkingSurface surface = build_surface(mesh, surface_options, result.faults);
   const std::uint32_t all_faces = surface.face_count;
@@ -149,9 +134,9 @@ Result<Simplification> simplify(const TriangleMesh& mesh, const SimplifyOptions&
   CollapserOptions collapser_options;
   collapser_options.legality = options.legality;
   Collapser collapser(surface, &attributes, collapser_options);
-  const std::vector<std::span<const Vec3>> shapes = other_shapes(mesh, options.poses);
-  const PoseField poses =
-      shapes.empty() ? PoseField() : PoseField(surface, shapes, options.threads);
+  PoseField poses;
+  if (options.poses.orders)
+    poses = PoseField(surface, other_shapes(mesh, options.poses.samples), options.threads);
   if (!poses.empty()) collapser.poses = &poses;
   PlacementLog placement;
   const CollapseLog log =

@@ -7,11 +7,11 @@
 #include <varifold/simplify/collapse_sequence.h>
 #include <varifold/simplify/energy_samples.h>
 #include <varifold/simplify/legality.h>
+#include <varifold/simplify/pose_use.h>
 #include <varifold/simplify/working_surface.h>
 #include <array>
 #include <cstdint>
 #include <limits>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -27,14 +27,6 @@ enum class Placement {
 enum class Metric {
   kQuadric,  ///< distance to the planes of the faces at hand: fast
   kEnergy,   ///< change of Hoppe's energy over samples of the original: measured, slower
-};
-
-/// Which shapes beside that at rest matter to costs, legality and measured errors.
-struct PoseUse {
-  bool of_mesh = true;  ///< TriangleMesh::poses
-  /// More of them: what a skin does, for example. They are no part of the result. A place for each
-  /// vertex of the mesh; normals are not looked at.
-  std::span<const Pose> samples;
 };
 
 struct SimplifyOptions {

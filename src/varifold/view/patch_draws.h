@@ -1,7 +1,7 @@
 // PatchDrawList: what a model of patches gives to whatever draws it without rewriting indices.
 #pragma once
 
-#include <varifold/base/math.h>
+#include <varifold/mesh/pose.h>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -63,6 +63,8 @@ struct PatchDrawList {
   std::span<const Vec3> normals;
   std::span<const Vec2> texcoords;
   std::span<const Color> colors;
+  std::span<const JointWeights> skin;
+  std::span<const Pose> poses;
   std::span<const PatchRemap> remap;
   std::span<const PatchMorph> morphs;
   std::span<const std::uint16_t> indices;  ///< three per triangle, counted in the patch

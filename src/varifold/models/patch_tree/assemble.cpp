@@ -1,6 +1,8 @@
 #include <varifold/models/patch_tree/assemble.h>
 
 #include <varifold/base/parallel.h>
+#include <varifold/mesh/blended_normals.h>
+#include <varifold/mesh/vertex_arrays.h>
 #include <algorithm>
 #include <cmath>
 
@@ -18,9 +20,14 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
 
 class Assembler {
  public:
-  Assembler(const TriangleMesh& mesh, const WorkingSurface& surface,
+  Assembler(const TriangleMesh& mesh, std::span<const Pose> samples, const WorkingSurface& surface,
             std::vector<AssembledLevel>& levels, int threads)
-      : mesh_(mesh), surface_(surface), levels_(levels), threads_(threads) {}
+      : mesh_(mesh),
+        samples_(samples),
+        surface_(surface),
+        levels_(levels),
+        threads_(threads),
+        sampled_(samples.size()) {}
 
   PatchTreeData assemble() {
     tree_.vertices.materials = mesh_.materials;
@@ -32,6 +39,7 @@ class Assembler {
       add_blocks(l);
       levels_[l].blocks = {};
     }
+    find_shapes();
     find_bounds();
     return std::move(tree_);
   }
@@ -46,16 +54,20 @@ class Assembler {
   void add_neighbors(std::size_t level);
   void add_blocks(std::size_t level);
   void add_vertices(const LevelBlocks& blocks, std::size_t first);
+  void find_shapes();
   void find_bounds();
   void bound_leaf(std::uint32_t node);
   void bound_parent(std::uint32_t node);
   void add_normals(std::uint32_t node, std::vector<Vec3>& normals) const;
 
   const TriangleMesh& mesh_;
+  std::span<const Pose> samples_;
   const WorkingSurface& surface_;
   std::vector<AssembledLevel>& levels_;
   int threads_;
   PatchTreeData tree_;
+  std::vector<std::vector<Vec3>> sampled_;     // the places of all vertices in each sample
+  std::vector<std::span<const Vec3>> shapes_;  // in all shapes
   // Per level and patch of it: the neighbours that move vertices of its children, ascending.
   std::vector<std::vector<std::vector<std::uint32_t>>> movers_;
 };
@@ -87,10 +99,11 @@ void Assembler::make_room() {
   tree_.controllers.reserve(sum.controller);
   tree_.ranges.reserve(sum.range);
   TriangleMesh& vertices = tree_.vertices;
-  vertices.positions.resize(sum.vertex);
-  if (mesh_.has_normals()) vertices.normals.resize(sum.vertex);
-  if (mesh_.has_texcoords()) vertices.texcoords.resize(sum.vertex);
-  if (mesh_.has_colors()) vertices.colors.resize(sum.vertex);
+  copy_pose_names(mesh_, vertices);
+  for_each_vertex_array(mesh_, vertices, [&](const auto& from, auto& to) {
+    if (!from.empty()) to.resize(sum.vertex);
+  });
+  for (auto& places : sampled_) places.resize(sum.vertex);
 }
 
 void Assembler::link_level(std::size_t level) {
@@ -163,14 +176,19 @@ void Assembler::add_vertices(const LevelBlocks& blocks, std::size_t first) {
   const std::vector<std::uint32_t>& vertex_of =
       surface_.wedge.vertex_of.empty() ? surface_.first_vertex_of_point : surface_.wedge.vertex_of;
   parallel_for(threads_, blocks.wedges.size(), 16384, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const std::uint32_t v = vertex_of[blocks.wedges[i]];
-      out.positions[first + i] = mesh_.positions[v];
-      if (mesh_.has_normals()) out.normals[first + i] = mesh_.normals[v];
-      if (mesh_.has_texcoords()) out.texcoords[first + i] = mesh_.texcoords[v];
-      if (mesh_.has_colors()) out.colors[first + i] = mesh_.colors[v];
-    }
+    const auto gather = [&](const auto& from, auto& to) {
+      if (from.empty()) return;
+      for (std::size_t i = begin; i < end; ++i) to[first + i] = from[vertex_of[blocks.wedges[i]]];
+    };
+    for_each_vertex_array(mesh_, out, gather);
+    for (std::size_t s = 0; s < sampled_.size(); ++s) gather(samples_[s].positions, sampled_[s]);
   });
+}
+
+void Assembler::find_shapes() {
+  shapes_.emplace_back(tree_.vertices.positions);
+  for (const Pose& pose : tree_.vertices.poses) shapes_.emplace_back(pose.positions);
+  for (const auto& places : sampled_) shapes_.emplace_back(places);
 }
 
 // Leaves first: what is known of children bounds their parent.
@@ -204,11 +222,9 @@ void Assembler::find_bounds() {
 
 void Assembler::add_normals(std::uint32_t node, std::vector<Vec3>& normals) const {
   const PatchOffsets& at = tree_.offsets[node];
-  const Vec3* positions = tree_.vertices.positions.data() + at.vertex;
   for (std::size_t t = at.triangle; t < tree_.offsets[node + 1].triangle; ++t) {
     const std::uint16_t* c = &tree_.corners[3 * t];
-    normals.push_back(normalize_or_zero(
-        glm::cross(positions[c[1]] - positions[c[0]], positions[c[2]] - positions[c[0]])));
+    blended_normals(shapes_, {at.vertex + c[0], at.vertex + c[1], at.vertex + c[2]}, normals);
   }
 }
 
@@ -216,11 +232,13 @@ void Assembler::bound_leaf(std::uint32_t node) {
   PatchBounds& bounds = tree_.bounds[node];
   const std::uint32_t first = tree_.offsets[node].vertex, last = tree_.offsets[node + 1].vertex;
   Box box;
-  for (std::uint32_t v = first; v < last; ++v) box.add(tree_.vertices.positions[v]);
+  for (const auto& places : shapes_)
+    for (std::uint32_t v = first; v < last; ++v) box.add(places[v]);
   bounds.ball = {box.center(), 0};
-  for (std::uint32_t v = first; v < last; ++v)
-    bounds.ball.radius =
-        std::max(bounds.ball.radius, glm::length(tree_.vertices.positions[v] - bounds.ball.center));
+  for (const auto& places : shapes_)
+    for (std::uint32_t v = first; v < last; ++v)
+      bounds.ball.radius =
+          std::max(bounds.ball.radius, glm::length(places[v] - bounds.ball.center));
   bounds.ball.radius *= kRounding;
   std::vector<Vec3> normals;
   add_normals(node, normals);
@@ -273,13 +291,15 @@ std::vector<std::uint32_t> first_children(const AssembledLevel& level, std::uint
   return first;
 }
 
-PatchTreeData assemble(const TriangleMesh& mesh, const WorkingSurface& surface,
-                       std::vector<AssembledLevel> levels, int threads) {
-  return Assembler(mesh, surface, levels, threads).assemble();
+PatchTreeData assemble(const TriangleMesh& mesh, std::span<const Pose> samples,
+                       const WorkingSurface& surface, std::vector<AssembledLevel> levels,
+                       int threads) {
+  return Assembler(mesh, samples, surface, levels, threads).assemble();
 }
 
 PatchTreeData empty_tree(const TriangleMesh& mesh) {
   PatchTreeData tree;
+  copy_pose_names(mesh, tree.vertices);
   tree.vertices.materials = mesh.materials;
   tree.vertices.images = mesh.images;
   tree.topology.first_of_level = {0};

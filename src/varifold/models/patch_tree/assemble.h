@@ -7,6 +7,7 @@
 #include <varifold/partition/patch_levels.h>
 #include <varifold/simplify/working_surface.h>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace varifold {
@@ -25,8 +26,10 @@ struct AssembledLevel {
                                                         std::uint32_t parent_count);
 
 /// Numbers the nodes, gathers vertices, and nests bounds and errors. `levels` run from the leaves
-/// on. O(size of the tree).
-[[nodiscard]] PatchTreeData assemble(const TriangleMesh& mesh, const WorkingSurface& surface,
+/// on. Balls and cones hold the patches in every blend of the mesh at rest, its poses and
+/// `samples`. O(size of the tree).
+[[nodiscard]] PatchTreeData assemble(const TriangleMesh& mesh, std::span<const Pose> samples,
+                                     const WorkingSurface& surface,
                                      std::vector<AssembledLevel> levels, int threads);
 
 /// A tree of one empty patch, for a mesh without triangles.

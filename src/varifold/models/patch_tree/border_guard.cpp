@@ -247,6 +247,16 @@ int BorderGuard::count_paths(const Link& link) {
 
 bool BorderGuard::keeps_shapes(std::uint32_t target, std::uint32_t region,
                                const Mixture& mixture) const {
+  if (!keeps_shapes_in(RestPlaces(surface_), target, region, mixture)) return false;
+  for (std::uint32_t i = 0; poses_ && i < poses_->pose_count(); ++i)
+    if (!keeps_shapes_in(poses_->pose(i), target, region, mixture)) return false;
+  return true;
+}
+
+template <class Places>
+bool BorderGuard::keeps_shapes_in(const Places& places, std::uint32_t target, std::uint32_t region,
+                                  const Mixture& mixture) const {
+  const auto position = [&](std::uint32_t point) { return places.position(point); };
   for (std::uint32_t i = target; i != kNone; i = points_[i].next) {
     const std::uint32_t apex = points_[i].point;
     const std::uint32_t new_apex = image(apex, region, mixture);

@@ -33,8 +33,9 @@ struct BorderLocks {
 class BorderGuard final : public CollapseGuard {
  public:
   /// `surface` outlives the guard.
-  explicit BorderGuard(WorkingSurface& surface)
-      : surface_(surface), border_of_(surface.point_count(), kNone) {}
+  /// `poses`: other poses of the surface, in which no triangle may turn either; or null.
+  explicit BorderGuard(WorkingSurface& surface, const PoseField* poses = nullptr)
+      : surface_(surface), poses_(poses), border_of_(surface.point_count(), kNone) {}
 
   /// The surface stands at the beginning of a level, with its regions and kinds. Points in
   /// `locks` become corners. `live` are the points that are left. O(live points).
@@ -130,9 +131,9 @@ class BorderGuard final : public CollapseGuard {
   [[nodiscard]] std::span<const StarFace> star(const BorderPoint& p) const {
     return {star_.data() + p.first_face, star_.data() + p.last_face};
   }
-  [[nodiscard]] const Vec3& position(std::uint32_t point) const {
-    return surface_.points[point].position;
-  }
+  template <class Places>
+  [[nodiscard]] bool keeps_shapes_in(const Places& places, std::uint32_t target,
+                                     std::uint32_t region, const Mixture& mixture) const;
   void lock_around(std::uint32_t target, BorderLocks& locks) const;
   void find_chords(std::uint32_t border, bool all, std::vector<Chord>& chords) const;
   [[nodiscard]] bool is_free_of_clashes(std::uint32_t corner) const;
@@ -144,6 +145,7 @@ class BorderGuard final : public CollapseGuard {
   [[nodiscard]] bool lock_chords(std::vector<Chord>& chords, BorderLocks& locks) const;
 
   WorkingSurface& surface_;
+  const PoseField* poses_;
   std::vector<std::uint32_t> border_of_;  // per point: its number in points_, or kNone
   std::vector<BorderPoint> points_;
   std::vector<StarFace> star_;

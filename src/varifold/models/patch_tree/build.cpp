@@ -2,6 +2,7 @@
 
 #include <varifold/base/large_vector.h>
 #include <varifold/base/parallel.h>
+#include <varifold/mesh/vertex_arrays.h>
 #include <varifold/models/patch_tree/assemble.h>
 #include <varifold/models/patch_tree/level_blocks.h>
 #include <varifold/models/patch_tree/level_errors.h>
@@ -12,6 +13,7 @@
 #include <varifold/partition/patches.h>
 #include <varifold/simplify/input_fault.h>
 #include <varifold/simplify/point_quadric.h>
+#include <varifold/simplify/pose_deviation.h>
 #include <varifold/simplify/surface_builder.h>
 #include <algorithm>
 #include <chrono>
@@ -45,14 +47,10 @@ class Stopwatch {
   Clock::time_point last_ = Clock::now();
 };
 
-bool needs_wedges(const TriangleMesh& mesh) {
-  return mesh.has_normals() || mesh.has_texcoords() || mesh.has_colors() || mesh.ranges.size() > 1;
-}
-
 class Builder {
  public:
   Builder(const TriangleMesh& mesh, const PatchTreeOptions& options)
-      : mesh_(mesh), options_(options) {}
+      : mesh_(mesh), options_(options), shapes_(other_shapes(mesh, options.poses.samples)) {}
 
   Result<PatchTreeBuild> build();
 
@@ -73,6 +71,7 @@ class Builder {
 
   const TriangleMesh& mesh_;
   const PatchTreeOptions& options_;
+  std::vector<std::span<const Vec3>> shapes_;  // beside that at rest
   PatchTreeBuild result_;
   Stopwatch watch_;
   WorkingSurface surface_;
@@ -86,7 +85,7 @@ class Builder {
 // The surface and, meanwhile, the patches of its leaves. False where cancelled.
 bool Builder::make_surface() {
   SurfaceOptions options;
-  options.with_wedges = needs_wedges(mesh_);
+  options.with_wedges = may_have_seams(mesh_);
   options.threads = options_.threads;
   const bool has_materials =
       mesh_.ranges.size() > 1 || (mesh_.ranges.size() == 1 && mesh_.ranges[0].material != 0);
@@ -234,7 +233,11 @@ PatchNeighbors Builder::neighbors_of(const LevelBlocks& blocks) const {
 }
 
 bool Builder::make_levels_of_detail() {
-  LevelHalving halving(surface_, attributes_, {options_.threads, options_.progress});
+  const PoseField poses(surface_, shapes_, options_.threads);
+  std::optional<ShapeTable> shapes;
+  if (!poses.empty()) shapes.emplace(surface_, poses);
+  const PoseField* const ordering = options_.poses.orders && !poses.empty() ? &poses : nullptr;
+  LevelHalving halving(surface_, attributes_, {options_.threads, options_.progress, ordering});
   std::optional<LevelErrors> errors;  // made when the first collapses are done: they need room, too
   for (std::uint32_t level = 0;; ++level) {
     if (level + 1 == levels_.level_count()) {
@@ -255,7 +258,7 @@ bool Builder::make_levels_of_detail() {
       return true;
     }
     save_memory();  // queues and logs
-    if (!errors) errors.emplace(surface_, options_.threads);
+    if (!errors) errors.emplace(surface_, options_.threads, shapes ? &*shapes : nullptr);
     parallel_both(
         options_.threads,
         [&] {
@@ -288,7 +291,8 @@ Result<PatchTreeBuild> Builder::build() {
   surface_.reference_normal = {};
   level_mesh_ = {};
   save_memory();
-  result_.tree = PatchTree(assemble(mesh_, surface_, std::move(kept_), options_.threads));
+  result_.tree = PatchTree(
+      assemble(mesh_, options_.poses.samples, surface_, std::move(kept_), options_.threads));
   watch_.add_to(result_.report.layout_seconds);
   return std::move(result_);
 }
@@ -296,8 +300,9 @@ Result<PatchTreeBuild> Builder::build() {
 }  // namespace
 
 Result<PatchTreeBuild> build_patch_tree(const TriangleMesh& mesh, const PatchTreeOptions& options) {
-  if (std::string fault = input_fault(mesh); !fault.empty())
-    return fail(ErrorKind::kInvalidInput, std::move(fault));
+  std::string fault = input_fault(mesh);
+  if (fault.empty()) fault = sample_fault(mesh, options.poses.samples);
+  if (!fault.empty()) return fail(ErrorKind::kInvalidInput, std::move(fault));
   return Builder(mesh, options).build();
 }
 

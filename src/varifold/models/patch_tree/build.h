@@ -10,6 +10,7 @@
 #include <varifold/mesh/triangle_mesh.h>
 #include <varifold/models/patch_tree/patch_tree.h>
 #include <varifold/simplify/attribute_field.h>
+#include <varifold/simplify/pose_use.h>
 #include <varifold/simplify/working_surface.h>
 #include <cstdint>
 #include <string>
@@ -28,6 +29,9 @@ struct PatchTreeOptions {
   bool smooth_borders = true;
   PatchPriority priority = PatchPriority::kClosestPoint;
   AttributeWeights attributes;
+  /// Shapes beside that at rest; bounds and errors hold in every blend of all of them, whether they
+  /// order collapses or not.
+  PoseUse poses;
   int threads = 0;  ///< 0 = all; the result does not depend on it
   Progress progress;
 };

@@ -44,8 +44,9 @@ StarNearest nearest_in_star(const WorkingSurface& surface, std::uint32_t point, 
 
 }  // namespace
 
-LevelErrors::LevelErrors(const WorkingSurface& surface, int threads)
+LevelErrors::LevelErrors(const WorkingSurface& surface, int threads, const ShapeTable* shapes)
     : surface_(surface),
+      shapes_(shapes),
       threads_(threads),
       carrier_(surface.point_count()),
       squared_(surface.point_count(), 0.0f),
@@ -102,8 +103,13 @@ void LevelErrors::measure_carried(std::uint32_t point, Scratch& scratch) {
     squared_[point] = 0;
     return;
   }
-  find_star(point, scratch);
-  for (std::size_t i = 0; i < samples.size(); i += NearestBatch::kSize) {
+  if (shapes_) {
+    NearestInShapes nearest(*shapes_);
+    for (const std::uint32_t s : samples) measure_in_shapes(s, nearest, scratch);
+  } else {
+    find_star(point, scratch);
+  }
+  for (std::size_t i = 0; !shapes_ && i < samples.size(); i += NearestBatch::kSize) {
     const auto part = samples.subspan(i, std::min(NearestBatch::kSize, samples.size() - i));
     measure_batch(part, scratch);
   }
@@ -111,6 +117,29 @@ void LevelErrors::measure_carried(std::uint32_t point, Scratch& scratch) {
   for (const std::uint32_t s : samples) greatest = std::max(greatest, squared_[s]);
   squared_[point] = 0;
   greatest_[point] = std::sqrt(greatest);
+}
+
+// As measure_batch() and walk_on() do it, with the greatest distance of any blend.
+void LevelErrors::measure_in_shapes(std::uint32_t sample, NearestInShapes& nearest,
+                                    Scratch& scratch) {
+  const std::span<const Vec3> at = shapes_->of(sample);
+  std::uint32_t center = carrier_[sample];
+  squared_[sample] = std::numeric_limits<float>::infinity();
+  for (int step = 0; step <= kMaxSteps && center != kNone; ++step) {
+    find_star(center, scratch);
+    scratch.corners.clear();
+    for (std::size_t i = 0; i < scratch.star.size(); ++i)
+      scratch.corners.push_back({center, scratch.rim[2 * i], scratch.rim[2 * i + 1]});
+    if (scratch.corners.empty()) scratch.corners.push_back({center, center, center});
+    const std::size_t found = nearest.find(at, scratch.corners);
+    const float distance = nearest.greatest_way(at);
+    if (!(distance * distance < squared_[sample])) return;
+    squared_[sample] = distance * distance;
+    carrier_[sample] = center;
+    const Vec2 weights = nearest.weights_at_rest();
+    if (weights.x + weights.y < 1 - kRim) return;
+    center = scratch.corners[found][weights.x > weights.y ? 1 : 2];
+  }
 }
 
 void LevelErrors::measure_batch(std::span<const std::uint32_t> samples, const Scratch& scratch) {

@@ -5,6 +5,7 @@
 //   survivor; beside the mean, the greatest distance of any vertex of the original is kept.
 #pragma once
 
+#include <varifold/simplify/pose_deviation.h>
 #include <varifold/simplify/star_triangles.h>
 #include <varifold/simplify/working_surface.h>
 #include <cstdint>
@@ -19,7 +20,9 @@ namespace varifold {
 /// measured is the distance to some place of the surface, so never less than that to the nearest.
 class LevelErrors {
  public:
-  LevelErrors(const WorkingSurface& surface, int threads);
+  /// With `shapes`, the points of the surface in all its shapes, distances hold in every blend of
+  /// these (NearestInShapes).
+  LevelErrors(const WorkingSurface& surface, int threads, const ShapeTable* shapes = nullptr);
 
   /// The surface has been halved: `went` are the points that collapsed, each with the point where
   /// it ended up; `live` are those that are left. O(points of the original).
@@ -36,14 +39,17 @@ class LevelErrors {
   struct Scratch {
     std::vector<StarTriangle> star;
     std::vector<std::uint32_t> rim;  // m and n of each
+    std::vector<NearestInShapes::Corners> corners;
   };
   void sort_by_carrier();
   void measure_carried(std::uint32_t point, Scratch& scratch);
   void measure_batch(std::span<const std::uint32_t> samples, const Scratch& scratch);
+  void measure_in_shapes(std::uint32_t sample, NearestInShapes& nearest, Scratch& scratch);
   void find_star(std::uint32_t point, Scratch& scratch) const;
   void walk_on(std::uint32_t sample, std::uint32_t next);
 
   const WorkingSurface& surface_;
+  const ShapeTable* shapes_;
   int threads_;
   std::vector<std::uint32_t> carrier_;  // per point of the original
   std::vector<float> squared_;          // ... its distance

@@ -29,7 +29,10 @@ constexpr float kDistanceWeight = 0.25f;
 
 LevelHalving::LevelHalving(WorkingSurface& surface, AttributeField& attributes,
                            const HalvingOptions& options)
-    : surface_(surface), attributes_(attributes), options_(options), guard_(surface) {
+    : surface_(surface),
+      attributes_(attributes),
+      options_(options),
+      guard_(surface, options.poses) {
   const std::size_t wedges =
       surface.wedge.has_seams() ? surface.wedge.vertex_of.size() : surface.point_count();
   survivor_.resize(wedges);
@@ -96,6 +99,7 @@ bool LevelHalving::collapse(std::uint32_t target_faces, std::vector<CollapseLogE
     options.distance_weight = kDistanceWeight * area_per_point_;
     Collapser collapser(surface_, &attributes_, options);
     collapser.guard = &guard_;
+    collapser.poses = options_.poses;
     RoundOptions rounds;
     rounds.target_faces = target_faces;
     rounds.exact = true;

@@ -34,6 +34,7 @@ struct LevelMesh {
 struct HalvingOptions {
   int threads = 0;  ///< 0 = all; the result does not depend on it
   Progress progress;
+  const PoseField* poses = nullptr;  ///< other poses of the surface, where there are some
 };
 
 struct HalvingReport {

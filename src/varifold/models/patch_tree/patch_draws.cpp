@@ -1,5 +1,6 @@
 #include <varifold/models/patch_tree/patch_draws.h>
 
+#include <varifold/mesh/vertex_arrays.h>
 #include <varifold/mesh/weld.h>
 #include <algorithm>
 #include <cmath>
@@ -57,11 +58,10 @@ void PatchDrawTables::find_morphs(PatchMeasure measure) {
 // vertices at that point must have the same.
 void PatchDrawTables::find_morphs_of_level(std::uint32_t level, PatchMeasure measure) {
   const PatchTreeData& data = tree_->data();
-  const std::vector<Vec3>& positions = data.vertices.positions;
   const std::uint32_t first = data.topology.first_of_level[level];
   const std::uint32_t last = data.topology.first_of_level[level + 1];
   const std::uint32_t base = data.offsets[first].vertex, end = data.offsets[last].vertex;
-  const WeldMap weld = weld_exact({positions.data() + base, positions.data() + end});
+  const WeldMap weld = weld_points(data.vertices, base, end);
   std::vector<float> errors(weld.class_count, std::numeric_limits<float>::infinity());
   for (std::uint32_t node = first; node < last; ++node) {
     const float error = length_of(data.bounds[data.topology.parent[node]], measure);
@@ -76,7 +76,7 @@ void PatchDrawTables::find_morphs_of_level(std::uint32_t level, PatchMeasure mea
     const std::uint32_t parent_vertex = data.offsets[data.topology.parent[node]].vertex;
     for (std::uint32_t v = data.offsets[node].vertex; v < data.offsets[node + 1].vertex; ++v) {
       const std::uint32_t survivor = parent_vertex + data.survivors[v];
-      if (positions[survivor] != positions[v])
+      if (!same_point(data.vertices, survivor, v))
         morphs_[v] = {survivor, errors[weld.class_of[v - base]]};
       else if (morphs_[survivor].target != survivor)
         morphs_[v] = morphs_[survivor];  // the same point, which goes at a coarser level
@@ -153,6 +153,8 @@ PatchDrawList PatchDraws::list() const {
   list.normals = data.vertices.normals;
   list.texcoords = data.vertices.texcoords;
   list.colors = data.vertices.colors;
+  list.skin = data.vertices.skin;
+  list.poses = data.vertices.poses;
   list.remap = tables_->remap();
   list.morphs = tables_->morphs();
   list.indices = data.corners;

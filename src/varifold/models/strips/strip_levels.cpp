@@ -1,5 +1,7 @@
 #include <varifold/models/strips/strip_levels.h>
 
+#include <varifold/mesh/vertex_arrays.h>
+#include <varifold/mesh/weld.h>
 #include <algorithm>
 #include <array>
 #include <numeric>
@@ -11,20 +13,14 @@ namespace {
 
 // Per vertex, the first one at its place; empty where that is itself, always.
 std::vector<std::uint32_t> first_at_place(const TriangleMesh& mesh) {
-  if (!mesh.has_normals() && !mesh.has_texcoords() && !mesh.has_colors() && mesh.ranges.size() <= 1)
-    return {};  // without attributes there is one vertex at a place
-  const std::vector<Vec3>& at = mesh.positions;
-  std::vector<std::uint32_t> order(at.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    if (at[a].x != at[b].x) return at[a].x < at[b].x;
-    if (at[a].y != at[b].y) return at[a].y < at[b].y;
-    if (at[a].z != at[b].z) return at[a].z < at[b].z;
-    return a < b;
-  });
-  std::vector<std::uint32_t> first(at.size());
-  for (std::size_t i = 0; i < order.size(); ++i)
-    first[order[i]] = i > 0 && at[order[i]] == at[order[i - 1]] ? first[order[i - 1]] : order[i];
+  if (!may_have_seams(mesh)) return {};  // there is one vertex at a place
+  const WeldMap weld = weld_points(mesh);
+  std::vector<std::uint32_t> first_of_class(weld.class_count, kNone), first(mesh.vertex_count());
+  for (std::uint32_t v = 0; v < first.size(); ++v) {
+    std::uint32_t& of_class = first_of_class[weld.class_of[v]];
+    if (of_class == kNone) of_class = v;
+    first[v] = of_class;
+  }
   return first;
 }
 

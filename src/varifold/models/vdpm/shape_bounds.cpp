@@ -1,11 +1,13 @@
 #include <varifold/models/vdpm/shape_bounds.h>
 
+#include <varifold/mesh/blended_normals.h>
 #include <varifold/models/vdpm/bound_codes.h>
 #include <varifold/models/vdpm/deviation_space.h>
 #include <varifold/simplify/pose_deviation.h>
 #include <varifold/simplify/sample_carrier.h>
 #include <cassert>
 #include <optional>
+#include <utility>
 
 namespace varifold {
 
@@ -14,7 +16,7 @@ namespace {
 // The star of a collapse, before and after it, in all blends.
 class ShapeStar {
  public:
-  explicit ShapeStar(const ShapeTable& shapes) : shapes_(shapes) {}
+  explicit ShapeStar(const DetailedMesh& detailed) : shapes_(detailed.shapes()) {}
 
   void begin(const Vec3& center) {
     center_ = center;
@@ -24,14 +26,15 @@ class ShapeStar {
   void add(const std::vector<std::uint32_t>& corners, std::span<const std::uint32_t> slots) {
     for (const std::uint32_t slot : slots) {
       const std::uint32_t* corner = &corners[3 * std::size_t{slot / 3}];
-      const std::span<const Vec3> p[3] = {shapes_.of(corner[0]), shapes_.of(corner[1]),
-                                          shapes_.of(corner[2])};
-      for (const auto& places : p)
-        for (const Vec3& place : places) {
-          const DVec3 from_center = DVec3(place) - DVec3(center_);
+      for (const auto& places : shapes_)
+        for (int k = 0; k < 3; ++k) {
+          const DVec3 from_center = DVec3(places[corner[k]]) - DVec3(center_);
           squared_ = std::max(squared_, glm::dot(from_center, from_center));
         }
-      add_normals(p);
+      directions_.clear();
+      blended_normals(shapes_, {corner[0], corner[1], corner[2]}, directions_);
+      for (const Vec3& n : directions_)
+        if (n != Vec3(0)) normals_.push_back(n);
     }
   }
   [[nodiscard]] std::uint16_t radius() const {
@@ -40,21 +43,10 @@ class ShapeStar {
   [[nodiscard]] std::uint32_t cone() const { return bound_codes::cone_of(normals_, std::nullopt); }
 
  private:
-  void add_normals(const std::span<const Vec3>* p) {
-    for (std::size_t i = 0; i < shapes_.shape_count(); ++i) {
-      const Vec3 e = p[1][i] - p[0][i], f = p[2][i] - p[0][i];
-      for (std::size_t j = 0; j <= i; ++j) {
-        const Vec3 ej = p[1][j] - p[0][j], fj = p[2][j] - p[0][j];
-        const Vec3 normal = normalize_or_zero(glm::cross(e, fj) + glm::cross(ej, f));
-        if (normal != Vec3(0)) normals_.push_back(normal);
-      }
-    }
-  }
-
-  const ShapeTable& shapes_;
+  std::vector<std::span<const Vec3>> shapes_;
   Vec3 center_{0};
   double squared_ = 0;
-  std::vector<Vec3> normals_;
+  std::vector<Vec3> normals_, directions_;
 };
 
 // What a carrier finds out about all steps with its share of the samples.
@@ -63,7 +55,8 @@ struct Share {
   SampleShapes shapes;
   std::vector<SurfaceSample> samples;
   std::vector<DeviationGatherer> spaces;
-  std::optional<NearestInShapes> nearest;
+  NearestInShapes nearest;
+  std::vector<NearestInShapes::Corners> triangles;
   std::vector<StepBounds>* bounds = nullptr;  // where stars are noted, in one of the shares
 };
 
@@ -75,14 +68,16 @@ class Finder {
       : share_(share), carrier_(carrier), target_(target) {}
 
   void set_axis(const Vec3& axis) { axis_ = axis; }
-  void reset(const std::vector<StarTriangle>& triangles) { share_.nearest->reset(triangles); }
+  void reset(const std::vector<StarTriangle>& star) {
+    gather_corners(star, carrier_.corners(), share_.triangles);
+  }
   std::size_t find(const SampleCarrier::Sample& sample) {
     const std::span<const Vec3> at = share_.shapes.of(share_.samples[sample.number]);
-    const std::size_t found = share_.nearest->find(at);
+    const std::size_t found = share_.nearest.find(at, share_.triangles);
     if (carrier_.is_ear())
       for (std::size_t i = 0; i < at.size(); ++i) add(target_[i] - at[i]);
     else
-      share_.nearest->for_each_way(at, [&](const Vec3& way) { add(way); });
+      share_.nearest.for_each_way(at, [&](const Vec3& way) { add(way); });
     return found;
   }
   [[nodiscard]] const DeviationGatherer& space() const { return space_; }
@@ -144,13 +139,15 @@ bool measure_bounds_in_shapes(const DetailedMesh& detailed, const StepBoundsOpti
   const std::uint32_t count = sample_shares(options.threads, detailed.sequence);
   std::vector<Share> shares;
   for (std::uint32_t i = 0; i < count; ++i)
-    shares.push_back({ShapeStar(shapes), SampleShapes(shapes),
+    shares.push_back({ShapeStar(detailed),
+                      SampleShapes(shapes),
                       surface_samples(detailed, {0, options.on_edges, i, count}),
-                      std::vector<DeviationGatherer>(bounds.size()), std::nullopt,
+                      std::vector<DeviationGatherer>(bounds.size()),
+                      NearestInShapes(shapes),
+                      {},
                       i == 0 ? &bounds : nullptr});
   const auto collapse = [&](std::uint32_t number, SampleCarrier& carrier) {
     Share& share = shares[number];
-    if (!share.nearest) share.nearest.emplace(shapes, carrier.corners());
     measure_step(detailed.sequence, shapes, centers, share, carrier);
   };
   if (!carry_samples(detailed, {options.threads, options.progress, 0, options.on_edges, history},
