@@ -4,7 +4,9 @@
 namespace varifold::cli {
 
 void add_build_options(CLI::App& command, BuildOptions& options) {
-  command.add_option("mesh", options.input, "The mesh file")->required()->type_name("MESH");
+  CLI::Option* const mesh =
+      command.add_option("mesh", options.input, "The mesh file")->type_name("MESH");
+  add_pose_sources(command, *mesh, options.poses);
   command.add_option("-o,--output", options.output, "The model file, .vfm")
       ->required()
       ->type_name("MODEL");
@@ -15,15 +17,17 @@ void add_build_options(CLI::App& command, BuildOptions& options) {
 }
 
 Result<BuildInput> simplify_input(const BuildOptions& command) {
-  const auto path = input_path(command.input);
+  const auto path = rest_path(command.input, command.poses);
   BuildInput input;
   const Stopwatch read_watch;
-  auto imported = read_surface(path);
+  auto imported = read_posed_surface(command.input, command.poses);
   input.read_seconds = read_watch.seconds();
   if (!imported) return tl::unexpected(std::move(imported.error()));
   prepare_mesh(imported->mesh, command.prepare);
   SimplifyOptions options = simplify_options(command.flags, command.common, path);
   options.measure_error = !command.no_measure;
+  options.poses = pose_use(*imported, command.poses);
+  input.sampled_poses = imported->samples.size();
   auto result = simplify(imported->mesh, options);
   end_progress();
   if (!result) return fail_in(path.string(), std::move(result.error()));
@@ -35,6 +39,11 @@ Result<BuildInput> simplify_input(const BuildOptions& command) {
   input.simplify_seconds = result->collapse_seconds;
   input.measure_seconds = result->measure_seconds;
   return input;
+}
+
+void report_poses(const TriangleMesh& mesh, std::size_t sampled, Report& report) {
+  if (!mesh.poses.empty()) report.count("poses", "poses", mesh.poses.size());
+  if (sampled > 0) report.count("sampled_poses", "sampled from animations", sampled);
 }
 
 void report_times(const BuildInput& input, const BuildTimes& times, Report& report) {

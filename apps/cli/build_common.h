@@ -3,6 +3,7 @@
 
 #include <apps/cli/commands.h>
 #include <apps/cli/input.h>
+#include <apps/cli/pose_options.h>
 #include <apps/cli/simplify_options.h>
 #include <varifold/io/model_file.h>
 #include <varifold/models/common/uniform_model.h>
@@ -16,6 +17,7 @@ struct BuildOptions {
   CommonOptions common;
   PrepareOptions prepare;
   SimplifyFlags flags;
+  PoseSources poses;
   std::string input, output;
   bool no_measure = false;
 };
@@ -27,6 +29,7 @@ struct BuildInput {
   DetailedMesh detailed;
   StopReport stop;
   InputFaults faults;
+  std::size_t sampled_poses = 0;  ///< shapes of animations that were heeded
   double read_seconds = 0, simplify_seconds = 0, measure_seconds = 0;
 };
 /// Reads, prepares and simplifies to the base. Errors begin with the path.
@@ -57,6 +60,9 @@ void report_model(const Model& model, const ModelFileReport& file, const InputFa
   report.set("dropped_duplicate_triangles", faults.duplicate_triangles);
 }
 
+/// Poses of the model and shapes of animations that were heeded; nothing where there are none.
+void report_poses(const TriangleMesh& mesh, std::size_t sampled, Report& report);
+
 /// The times, beginning with those of the input.
 struct BuildTimes {
   double model = 0, write = 0, all = 0;
@@ -68,7 +74,7 @@ void report_times(const BuildInput& input, const BuildTimes& times, Report& repo
 template <class Make, class Tell, class... FileOptions>
 CommandResult build_and_write(const BuildOptions& build, const Make& make, const Tell& tell,
                               const FileOptions&... file_options) {
-  const auto input = input_path(build.input), output = output_path(build.output);
+  const auto input = rest_path(build.input, build.poses), output = output_path(build.output);
   if (auto writable = check_output(output, build.common, ".vfm"); !writable)
     return tl::unexpected(writable.error());
   const Stopwatch watch;
@@ -88,6 +94,7 @@ CommandResult build_and_write(const BuildOptions& build, const Make& make, const
 
   Report report;
   report_model(*model, *file, simplified->faults, report);
+  report_poses(model->attributes(), simplified->sampled_poses, report);
   tell(model, report);
   report_stop(simplified->stop, input, report);
   report_times(*simplified, times, report);

@@ -13,6 +13,7 @@ namespace {
 struct BuildCommand {
   CommonOptions common;
   PrepareOptions prepare;
+  PoseSources poses;
   AttributeWeights weights;
   std::string input, output;
   std::uint32_t patch_triangles = PatchTreeOptions{}.triangles_per_patch;
@@ -74,12 +75,12 @@ Result<void> check_any_left(const PatchTree& tree, const PatchTreeReport& built,
 }
 
 CommandResult run_build(const BuildCommand& command) {
-  const auto input = input_path(command.input), output = output_path(command.output);
+  const auto input = rest_path(command.input, command.poses), output = output_path(command.output);
   if (auto writable = check_output(output, command.common, ".vfm"); !writable)
     return tl::unexpected(writable.error());
   Times times;
   const Stopwatch watch;
-  auto imported = read_surface(input);
+  auto imported = read_posed_surface(command.input, command.poses);
   if (!imported) return tl::unexpected(std::move(imported.error()));
   times.read = watch.seconds();
   prepare_mesh(imported->mesh, command.prepare);
@@ -108,6 +109,7 @@ CommandResult run_build(const BuildCommand& command) {
   times.all = watch.seconds();
   Report report;
   report_model(built->tree, *file, built->report.faults, report);
+  report_poses(built->tree.attributes(), imported->samples.size(), report);
   report_tree(built->tree, built->report, report);
   report.length("file_bytes_per_triangle", "bytes a triangle, file",
                 static_cast<double>(file->file_bytes) /
@@ -126,7 +128,9 @@ void add_build_patchtree(CLI::App& build, CommandRunner& runner) {
   CLI::App* const command = build.add_subcommand(
       ModelKind<PatchTree>::kName, "Patch tree: patches of triangles, few decisions for a view");
   const auto options = std::make_shared<BuildCommand>();
-  command->add_option("mesh", options->input, "The mesh file")->required()->type_name("MESH");
+  CLI::Option* const mesh =
+      command->add_option("mesh", options->input, "The mesh file")->type_name("MESH");
+  add_pose_sources(*command, *mesh, options->poses);
   command->add_option("-o,--output", options->output, "The model file, .vfm")
       ->required()
       ->type_name("MODEL");

@@ -3,6 +3,7 @@
 #include <apps/cli/index_report.h>
 #include <apps/cli/input.h>
 #include <apps/cli/level_options.h>
+#include <apps/cli/pose_options.h>
 #include <apps/cli/strip_mesh.h>
 #include <varifold/strip/strip_measures.h>
 #include <memory>
@@ -18,6 +19,7 @@ struct ExtractCommand {
   LevelOptions level;
   ViewOptions view;
   PlaceOptions places;
+  PoseChoice pose;
   bool has_view = false;
   std::string input, output;
   std::string strips;  ///< how they are divided; empty: triangles
@@ -56,7 +58,10 @@ CommandResult extract_from(const ExtractCommand& command, const std::shared_ptr<
                           asks_for_view(command.view, command.level));
   warn_of_base(command.input, command.level, model->vertex_count(0), model->triangle_count(0));
   const std::optional<StripJoin> join = strip_join(command.strips, output);
-  const StripMesh level = level_mesh(instance, join);
+  StripMesh level = level_mesh(instance, join);
+  if (!command.pose.empty())
+    level.mesh = frozen(std::move(level.mesh),
+                        choose_pose(command.input, model->attributes(), command.pose));
   const TriangleMesh& mesh = level.mesh;
   if (auto written = write_mesh_loudly(mesh, output, join ? &level.strips : nullptr); !written)
     return tl::unexpected(written.error());
@@ -103,6 +108,7 @@ void add_extract(CLI::App& app, CommandRunner& runner) {
   add_level_options(*command, options->level);
   add_view_options(*command, options->view);
   add_place_options(*command, options->places);
+  add_pose_choice(*command, options->pose);
   command->add_option("-o,--output", options->output, "The mesh file: .ply, .obj or .glb")
       ->required()
       ->type_name("MESH");

@@ -43,6 +43,20 @@ void add_prepare_options(CLI::App& command, PrepareOptions& options) {
       ->type_name("LIST");
 }
 
+namespace {
+
+// All vertices of a class go to the place of its first.
+void weld_places(const WeldMap& weld, std::vector<Vec3>& places) {
+  std::vector<std::uint32_t> first(weld.class_count, kNone);
+  for (std::uint32_t v = 0; v < places.size(); ++v) {
+    std::uint32_t& of_class = first[weld.class_of[v]];
+    if (of_class == kNone) of_class = v;
+    places[v] = places[of_class];
+  }
+}
+
+}  // namespace
+
 void prepare_mesh(TriangleMesh& mesh, const PrepareOptions& options) {
   const auto ignored = [&](const char* name) {
     return std::find(options.ignore.begin(), options.ignore.end(), name) != options.ignore.end();
@@ -56,16 +70,13 @@ void prepare_mesh(TriangleMesh& mesh, const PrepareOptions& options) {
     mesh.images = {};
   }
   if (options.weld < 0) return;
-  // Attributes stay apart: vertices of one position with different ones become a seam.
-  const WeldMap weld = weld_within(mesh.positions, options.weld);
-  std::vector<Vec3> place_of(weld.class_count);
-  std::vector<bool> is_placed(weld.class_count, false);
-  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
-    const std::uint32_t c = weld.class_of[v];
-    if (!is_placed[c]) place_of[c] = mesh.positions[v];
-    is_placed[c] = true;
-    mesh.positions[v] = place_of[c];
-  }
+  // Attributes stay apart: vertices of one position with different ones become a seam. Vertices
+  // that a pose parts stay apart, too.
+  WeldMap weld = weld_within(mesh.positions, options.weld);
+  for (const Pose& pose : mesh.poses)
+    weld = welded_by_both(weld, weld_within(pose.positions, options.weld));
+  weld_places(weld, mesh.positions);
+  for (Pose& pose : mesh.poses) weld_places(weld, pose.positions);
 }
 
 Result<ImportedMesh> read_mesh_loudly(const std::filesystem::path& path) {

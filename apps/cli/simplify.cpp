@@ -1,6 +1,7 @@
 // varifold simplify: one mesh, fewer triangles.
 #include <apps/cli/commands.h>
 #include <apps/cli/input.h>
+#include <apps/cli/pose_options.h>
 #include <apps/cli/simplify_options.h>
 #include <varifold/measure/surface_distance.h>
 #include <cmath>
@@ -14,6 +15,7 @@ struct SimplifyCommand {
   CommonOptions common;
   PrepareOptions prepare;
   SimplifyFlags flags;
+  PoseSources poses;
   std::string input, output;
   std::optional<std::uint32_t> triangles;
   std::optional<double> ratio, error;
@@ -43,11 +45,13 @@ void report_distance(const TriangleMesh& simplified, const TriangleMesh& origina
 }
 
 // The mesh at level 0.
-Result<Simplification> run_simplifier(TriangleMesh mesh, const SimplifyCommand& command,
+Result<Simplification> run_simplifier(const PosedInput& posed, const SimplifyCommand& command,
                                       const std::filesystem::path& input) {
+  TriangleMesh mesh = posed.mesh;
   prepare_mesh(mesh, command.prepare);
   SimplifyOptions options = simplify_options(command.flags, command.common, input);
   options.target_triangles = target_of(command, mesh);
+  options.poses = pose_use(posed, command.poses);
   if (command.error) options.max_error = static_cast<float>(*command.error);
   auto result = simplify(mesh, options);
   end_progress();
@@ -58,13 +62,13 @@ Result<Simplification> run_simplifier(TriangleMesh mesh, const SimplifyCommand& 
 }
 
 CommandResult run_simplify(const SimplifyCommand& command) {
-  const auto input = input_path(command.input), output = output_path(command.output);
+  const auto input = rest_path(command.input, command.poses), output = output_path(command.output);
   if (auto writable = check_mesh_output(output, command.common); !writable)
     return tl::unexpected(writable.error());
   const Stopwatch watch;
-  const auto original = read_surface(input);
+  const auto original = read_posed_surface(command.input, command.poses);
   if (!original) return tl::unexpected(original.error());
-  const auto result = run_simplifier(original->mesh, command, input);
+  const auto result = run_simplifier(*original, command, input);
   if (!result) return tl::unexpected(result.error());
   const CollapseSequence& sequence = result->detailed.sequence;
   const TriangleMesh simplified = without_unused_vertices(mesh_at_level(result->detailed, 0));
@@ -91,7 +95,9 @@ CommandResult run_simplify(const SimplifyCommand& command) {
 void add_simplify(CLI::App& app, CommandRunner& runner) {
   CLI::App* const command = app.add_subcommand("simplify", "Reduce a mesh to fewer triangles");
   const auto options = std::make_shared<SimplifyCommand>();
-  command->add_option("mesh", options->input, "The mesh file")->required()->type_name("MESH");
+  CLI::Option* const mesh =
+      command->add_option("mesh", options->input, "The mesh file")->type_name("MESH");
+  add_pose_sources(*command, *mesh, options->poses);
   CLI::Option_group* const target = command->add_option_group("Target", "When to stop");
   target->require_option(1);
   target->add_option("--triangles", options->triangles, "At most so many triangles")

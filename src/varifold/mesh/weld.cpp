@@ -133,9 +133,6 @@ WeldMap weld_exact(std::span<const Vec3> positions) {
   return weld;
 }
 
-namespace {
-
-// Vertices that both maps weld. Same order of numbers as ever: by their first vertex.
 WeldMap welded_by_both(const WeldMap& a, const WeldMap& b) {
   const std::size_t count = a.class_of.size();
   const std::size_t mask = table_size(count) - 1;
@@ -157,6 +154,8 @@ WeldMap welded_by_both(const WeldMap& a, const WeldMap& b) {
   }
   return weld;
 }
+
+namespace {
 
 // Joints and weights as places, so that those who follow the same joints are welded.
 WeldMap weld_skin(const std::vector<JointWeights>& skin) {

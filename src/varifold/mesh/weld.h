@@ -23,6 +23,9 @@ struct WeldMap {
 /// Lips that touch at rest and open in a pose stay apart. O(n) expected for each pose.
 [[nodiscard]] WeldMap weld_points(const TriangleMesh& mesh);
 
+/// Welded are the vertices that both maps weld. O(n) expected.
+[[nodiscard]] WeldMap welded_by_both(const WeldMap& a, const WeldMap& b);
+
 /// Vertices are welded when a chain of vertices joins them whose links are not longer than
 /// `tolerance` (>= 0, model units). O(n) expected while few vertices share a cell of that size.
 [[nodiscard]] WeldMap weld_within(std::span<const Vec3> positions, float tolerance);

@@ -12,6 +12,13 @@ std::vector<std::uint32_t> CollapseSequence::ancestors(std::uint32_t level) cons
   return result;
 }
 
+std::vector<std::span<const Vec3>> DetailedMesh::shapes() const {
+  std::vector<std::span<const Vec3>> result{mesh.positions};
+  for (const Pose& pose : mesh.poses) result.emplace_back(pose.positions);
+  for (const Pose& sample : samples) result.emplace_back(sample.positions);
+  return result;
+}
+
 namespace {
 
 std::uint32_t last_at_most(const std::vector<std::uint32_t>& ascending, std::uint32_t bound) {

@@ -3,6 +3,7 @@
 
 #include <varifold/mesh/triangle_mesh.h>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace varifold {
@@ -24,7 +25,7 @@ struct CollapseSequence {
   /// Per level, a distance in model units, never rising with the level, 0 at the full level. What
   /// it bounds is said by `error_is_measured`:
   ///  true: no vertex of the full mesh is farther than this from the surface of the level, nor
-  ///        from that of any finer level (deviation.h);
+  ///        from that of any finer level (deviation.h), in any blend of its shapes;
   ///  false: an estimate, the running maximum of the root mean square distance to the planes that
   ///        the quadric of the surviving vertex has gathered.
   std::vector<float> error;
@@ -65,6 +66,13 @@ struct DetailedMesh {
   CollapseSequence sequence;
   std::vector<std::uint32_t> original_vertex;    ///< per vertex, the vertex of the input
   std::vector<std::uint32_t> original_triangle;  ///< per triangle, the triangle of the input
+  /// Shapes that the mesh takes beside its own and its poses: what a skin does, for example. What
+  /// is said to hold in all blends does so in those of these, too. Places only.
+  std::vector<Pose> samples;
+
+  /// The places of all vertices at rest, in the poses, and in the samples.
+  [[nodiscard]] std::vector<std::span<const Vec3>> shapes() const;
+  [[nodiscard]] bool has_shapes() const { return !mesh.poses.empty() || !samples.empty(); }
 };
 
 /// The mesh at a level, by its definition: every vertex replaced by its ancestor. The reference

@@ -84,6 +84,13 @@ float Collapser::attribute_cost(std::uint32_t point, std::uint32_t onto, const V
   return sum;
 }
 
+RingErrors Collapser::ring_errors(Cell& cell, std::uint32_t point) {
+  const PointQuadric from = point_quadric(surface_, point, options_.quadric, cell.offsets);
+  const RingErrors at_rest{cell.offsets.errors(from.quadric), from.weight};
+  if (!poses) return at_rest;
+  return poses->mean_errors(surface_, point, options_.quadric, at_rest, cell.poses);
+}
+
 float Collapser::find_candidate(Cell& cell, std::uint32_t point) {
   PointState& state = surface_.points[point];
   state.flags &= ~PointState::kDirty;
@@ -93,8 +100,7 @@ float Collapser::find_candidate(Cell& cell, std::uint32_t point) {
   if (along == CollapseAlong::kNothing) return least;
   cell.offsets.gather(surface_, point);
   RingOffsets& offsets = cell.offsets;
-  const PointQuadric from = point_quadric(surface_, point, options_.quadric, offsets);
-  const float* errors = offsets.errors(from.quadric);
+  const auto [errors, weight] = ring_errors(cell, point);
   const RingEntry* ring = surface_.ring(point);
   for (std::size_t i = 0; i < offsets.size(); ++i) {
     const std::uint32_t onto = ring[i].neighbor;
@@ -107,7 +113,7 @@ float Collapser::find_candidate(Cell& cell, std::uint32_t point) {
     least = cost;
     state.target = onto;
   }
-  state.step = from.weight > 0 ? std::sqrt(least / from.weight) : 0.0f;
+  state.step = weight > 0 ? std::sqrt(least / weight) : 0.0f;
   return least;
 }
 
@@ -171,8 +177,7 @@ void Collapser::try_others(Cell& cell, std::uint32_t point) {
   int count = 0;
   cell.offsets.gather(surface_, point);
   RingOffsets& offsets = cell.offsets;
-  const PointQuadric from = point_quadric(surface_, point, options_.quadric, offsets);
-  const float* errors = offsets.errors(from.quadric);
+  const auto [errors, weight] = ring_errors(cell, point);
   const RingEntry* ring = surface_.ring(point);
   for (std::size_t i = 0; i < offsets.size() && count < 64; ++i) {
     if (ring[i].neighbor == state.target) continue;
@@ -186,7 +191,7 @@ void Collapser::try_others(Cell& cell, std::uint32_t point) {
   for (int i = 0; i < count; ++i) {
     if (test(cell, point, candidates[i].target) != Refusal::kLegal) continue;
     state.target = candidates[i].target;
-    state.step = from.weight > 0 ? std::sqrt(candidates[i].cost / from.weight) : 0.0f;
+    state.step = weight > 0 ? std::sqrt(candidates[i].cost / weight) : 0.0f;
     const std::uint32_t bucket =
         due_bucket(point, state.target,
                    std::max(cell.queue.current(), BucketQueue::bucket_of(candidates[i].cost)));
@@ -202,6 +207,10 @@ void Collapser::try_others(Cell& cell, std::uint32_t point) {
 Refusal Collapser::test(Cell& cell, std::uint32_t from, std::uint32_t onto) {
   const Refusal refusal = test_collapse(surface_, from, onto, options_.legality);
   if (refusal != Refusal::kLegal) return refusal;
+  if (poses) {
+    const Refusal in_poses = poses->test(surface_, from, onto, options_.legality);
+    if (in_poses != Refusal::kLegal) return in_poses;
+  }
   if ((is_watched(from) || is_watched(onto)) && !guard->allows(from, onto))
     return Refusal::kTopology;
   if (!attributes_ && !surface_.wedge.has_seams()) return refusal;

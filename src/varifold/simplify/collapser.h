@@ -5,6 +5,7 @@
 #include <varifold/simplify/bucket_queue.h>
 #include <varifold/simplify/legality.h>
 #include <varifold/simplify/point_quadric.h>
+#include <varifold/simplify/pose_field.h>
 #include <varifold/simplify/ring_merge.h>
 #include <varifold/simplify/working_surface.h>
 #include <cstdint>
@@ -33,6 +34,7 @@ struct Cell {
 
   MergeScratch scratch;
   RingOffsets offsets;
+  PoseScratch poses;
 };
 
 /// What a Collapser works on besides the surface.
@@ -85,6 +87,7 @@ class Collapser {
   /// the serial pass sets this; null means the drained cell itself.
   std::vector<Cell>* home_cells = nullptr;
   CollapseGuard* guard = nullptr;
+  const PoseField* poses = nullptr;   ///< other poses of the surface, where there are some
   std::uint32_t points_per_home = 1;  ///< all but the last of those have as many
 
  private:
@@ -96,6 +99,8 @@ class Collapser {
     return guard && surface_.points[point].kind != VertexKind::kManifold && guard->watches(point);
   }
   [[nodiscard]] bool leaves_cell(const Cell& cell, std::uint32_t point);
+  /// Errors of collapses of a point, whose offsets are gathered already.
+  [[nodiscard]] RingErrors ring_errors(Cell& cell, std::uint32_t point);
   [[nodiscard]] float attribute_cost(std::uint32_t point, std::uint32_t onto, const Vec3& d);
   /// Sets target and step of a point and returns the cost; target kNone where it may not go.
   [[nodiscard]] float find_candidate(Cell& cell, std::uint32_t point);

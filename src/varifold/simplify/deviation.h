@@ -26,7 +26,11 @@ struct DeviationOptions {
 /// samples at this and all finer levels. It does not bound how far the interiors of the level's
 /// triangles stray from the full mesh (measure/ samples both directions).
 ///
-/// O(n log n) expected: about 25 distances to triangles a sample. Returns false when cancelled.
+/// Where the mesh takes several shapes (DetailedMesh::shapes()), this holds in each of them and in
+/// every blend with weights >= 0 that sum up to 1: see NearestInShapes.
+///
+/// O(n log n) expected: about 25 distances to triangles a sample, in each shape. Returns false when
+/// cancelled.
 bool measure_deviation(DetailedMesh& detailed, const DeviationOptions& options);
 
 /// What that is made of: per step, how far the samples that its collapse moves are from the

@@ -113,11 +113,11 @@ float longest_squared(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 // Whether a face that disagrees with the input at one corner does so at the two others as well.
 // Where the input has no normal, nothing can be said.
-bool opposes_input(const WorkingSurface& surface, const Vec3& normal, std::uint32_t m,
-                   std::uint32_t n) {
+template <class Places>
+bool opposes_input(const Places& places, const Vec3& normal, std::uint32_t m, std::uint32_t n) {
   if (normal == Vec3(0)) return false;
   for (const std::uint32_t corner : {m, n}) {
-    const Vec3 input_normal = unpack_normal(surface.points[corner].normal);
+    const Vec3 input_normal = unpack_normal(places.normal(corner));
     if (input_normal == Vec3(0) || glm::dot(normal, input_normal) > 0) return false;
   }
   return true;
@@ -135,12 +135,12 @@ bool turns_from_reference(const WorkingSurface& surface, std::uint32_t face, con
   return cosine <= 0 || (cosine / square) * (cosine / reference_square) < limit;
 }
 
-}  // namespace
-
 // The faces that stay must neither turn too far nor become needles.
-Refusal test_faces(WorkingSurface& surface, const ApexMove& move, const LegalityOptions& options) {
+template <class Places>
+Refusal test_faces_at(WorkingSurface& surface, const ApexMove& move, const LegalityOptions& options,
+                      const Places& places) {
   const auto ring = surface.ring_span(move.point);
-  const Vec3 old_apex = surface.points[move.point].position;
+  const Vec3 old_apex = places.position(move.point);
   const Vec3 new_apex = move.position;
   const std::uint32_t onto = move.partner;
   const Vec3 input_normal = unpack_normal(move.input_normal);
@@ -151,8 +151,8 @@ Refusal test_faces(WorkingSurface& surface, const ApexMove& move, const Legality
     const std::uint32_t n = ring[i + 1 == ring.size() ? 0 : i + 1].neighbor;
     if (ring[i].face == kNone || m == onto || n == onto) continue;
     if (surface.points[m].ring_size == 0) return Refusal::kTopology;
-    const Vec3 pm = surface.points[m].position;
-    const Vec3 pn = surface.points[n].position;
+    const Vec3 pm = places.position(m);
+    const Vec3 pn = places.position(n);
     const Vec3 edge = pn - pm;
     const Vec3 old_normal = glm::cross(pm - old_apex, edge);
     const Vec3 new_normal = glm::cross(pm - new_apex, edge);
@@ -165,9 +165,10 @@ Refusal test_faces(WorkingSurface& surface, const ApexMove& move, const Legality
     // Steps that are each small may turn a face right over, so it must agree with the input's
     // normal at one of its corners at least.
     if (!(glm::dot(new_normal, input_normal) > 0) && input_normal != Vec3(0) &&
-        opposes_input(surface, new_normal, m, n))
+        opposes_input(places, new_normal, m, n))
       return Refusal::kNormal;
-    if (turns_from_reference(surface, ring[i].face, new_normal, options)) return Refusal::kNormal;
+    if (Places::kIsRest && turns_from_reference(surface, ring[i].face, new_normal, options))
+      return Refusal::kNormal;
     if (new_square == 0 && old_square == 0) continue;  // it had no area and has none
     const float longest = longest_squared(pm - new_apex, pn - new_apex, edge);
     const float shape = new_square / (longest * longest);
@@ -176,6 +177,17 @@ Refusal test_faces(WorkingSurface& surface, const ApexMove& move, const Legality
     if (!(shape >= old_square / (old_longest * old_longest))) return Refusal::kShape;
   }
   return Refusal::kLegal;
+}
+
+}  // namespace
+
+Refusal test_faces(WorkingSurface& surface, const ApexMove& move, const LegalityOptions& options) {
+  return test_faces_at(surface, move, options, RestPlaces(surface));
+}
+
+Refusal test_faces(WorkingSurface& surface, const ApexMove& move, const LegalityOptions& options,
+                   const PosePlaces& pose) {
+  return test_faces_at(surface, move, options, pose);
 }
 
 Refusal test_connectivity(WorkingSurface& surface, std::uint32_t from, std::uint32_t onto,

@@ -6,6 +6,7 @@
 //   face; a face must agree with the input's normal at one corner; fresh needles are refused.
 #pragma once
 
+#include <varifold/simplify/pose_places.h>
 #include <varifold/simplify/working_surface.h>
 #include <cstdint>
 
@@ -51,5 +52,8 @@ struct ApexMove {
 /// The part of it that is about the shape of the faces around one point.
 [[nodiscard]] Refusal test_faces(WorkingSurface& surface, const ApexMove& move,
                                  const LegalityOptions& options);
+/// The same in another pose; the move is one there.
+[[nodiscard]] Refusal test_faces(WorkingSurface& surface, const ApexMove& move,
+                                 const LegalityOptions& options, const PosePlaces& pose);
 
 }  // namespace varifold

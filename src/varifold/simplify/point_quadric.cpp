@@ -15,18 +15,19 @@ constexpr float kTiny = 1e-30f;
 // Planes through the feature edges, at right angles to the faces there. Borders between regions
 // are no part of the shape: they may wander over the surface (held, rough ones cost a patch tree up
 // to 80 % in error).
-void add_constraints(WorkingSurface& surface, std::uint32_t point, const QuadricOptions& options,
-                     Quadric& quadric) {
+template <class Places>
+void add_constraints(WorkingSurface& surface, std::uint32_t point, const Places& places,
+                     const QuadricOptions& options, Quadric& quadric) {
   const auto ring = surface.ring_span(point);
   const bool is_open = std::any_of(ring.begin(), ring.end(),
                                    [](const RingEntry& entry) { return entry.face == kNone; });
   if (!is_open && !surface.wedge.has_seams()) return;
-  const Vec3 origin = surface.points[point].position;
+  const Vec3 origin = places.position(point);
   for (std::size_t i = 0; i < ring.size(); ++i) {
     if (ring[i].face == kNone) continue;
     const std::size_t ends[2] = {i, i + 1 == ring.size() ? 0 : i + 1};
-    const Vec3 edges[2] = {surface.points[ring[ends[0]].neighbor].position - origin,
-                           surface.points[ring[ends[1]].neighbor].position - origin};
+    const Vec3 edges[2] = {places.position(ring[ends[0]].neighbor) - origin,
+                           places.position(ring[ends[1]].neighbor) - origin};
     const Vec3 normal = normalize_or_zero(glm::cross(edges[0], edges[1]));
     for (int k = 0; k < 2; ++k) {
       const EdgeUse use = edge_use_at(surface, point, ends[k]);
@@ -40,7 +41,9 @@ void add_constraints(WorkingSurface& surface, std::uint32_t point, const Quadric
 
 }  // namespace
 
-void RingOffsets::gather(const WorkingSurface& surface, std::uint32_t point) {
+template <class Places>
+void RingOffsets::gather_places(const WorkingSurface& surface, std::uint32_t point,
+                                const Places& places) {
   const RingEntry* ring = surface.ring(point);
   size_ = surface.points[point].ring_size;
   const std::size_t stride = padded(size_);
@@ -55,9 +58,9 @@ void RingOffsets::gather(const WorkingSurface& surface, std::uint32_t point) {
   is_face_ = z_ + stride;
   errors_ = is_face_ + stride;
 
-  const Vec3 origin = surface.points[point].position;
+  const Vec3 origin = places.position(point);
   for (std::size_t i = 0; i < size_; ++i) {
-    const Vec3 offset = surface.points[ring[i].neighbor].position - origin;
+    const Vec3 offset = places.position(ring[i].neighbor) - origin;
     x_[i] = offset.x;
     y_[i] = offset.y;
     z_[i] = offset.z;
@@ -69,6 +72,15 @@ void RingOffsets::gather(const WorkingSurface& surface, std::uint32_t point) {
   z_[size_] = z_[0];
   for (std::size_t i = size_; i < stride; ++i) is_face_[i] = 0;
   for (std::size_t i = size_ + 1; i < stride; ++i) x_[i] = y_[i] = z_[i] = 0;
+}
+
+void RingOffsets::gather(const WorkingSurface& surface, std::uint32_t point) {
+  gather_places(surface, point, RestPlaces(surface));
+}
+
+void RingOffsets::gather(const WorkingSurface& surface, std::uint32_t point,
+                         const PosePlaces& pose) {
+  gather_places(surface, point, pose);
 }
 
 namespace {
@@ -129,13 +141,29 @@ const float* RingOffsets::errors(const Quadric& q) {
   return errors_;
 }
 
-PointQuadric point_quadric(WorkingSurface& surface, std::uint32_t point,
-                           const QuadricOptions& options, const RingOffsets& offsets) {
+namespace {
+
+template <class Places>
+PointQuadric quadric_at(WorkingSurface& surface, std::uint32_t point, const QuadricOptions& options,
+                        const RingOffsets& offsets, const Places& places) {
   PointQuadric result = offsets.face_quadric();
   if (surface.points[point].kind != VertexKind::kManifold)
-    add_constraints(surface, point, options, result.quadric);
+    add_constraints(surface, point, places, options, result.quadric);
   result.quadric.add_point(options.tangential_weight * result.weight);
   return result;
+}
+
+}  // namespace
+
+PointQuadric point_quadric(WorkingSurface& surface, std::uint32_t point,
+                           const QuadricOptions& options, const RingOffsets& offsets) {
+  return quadric_at(surface, point, options, offsets, RestPlaces(surface));
+}
+
+PointQuadric point_quadric(WorkingSurface& surface, std::uint32_t point,
+                           const QuadricOptions& options, const RingOffsets& offsets,
+                           const PosePlaces& pose) {
+  return quadric_at(surface, point, options, offsets, pose);
 }
 
 PointQuadric point_quadric(WorkingSurface& surface, std::uint32_t point,

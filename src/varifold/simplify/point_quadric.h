@@ -6,6 +6,7 @@
 #pragma once
 
 #include <varifold/simplify/attribute_field.h>
+#include <varifold/simplify/pose_places.h>
 #include <varifold/simplify/quadric.h>
 #include <varifold/simplify/working_surface.h>
 
@@ -31,6 +32,7 @@ class RingOffsets {
   static constexpr std::size_t kBlock = 8;
 
   void gather(const WorkingSurface& surface, std::uint32_t point);
+  void gather(const WorkingSurface& surface, std::uint32_t point, const PosePlaces& pose);
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] Vec3 operator[](std::size_t i) const { return {x_[i], y_[i], z_[i]}; }
 
@@ -40,6 +42,9 @@ class RingOffsets {
   [[nodiscard]] const float* errors(const Quadric& quadric);
 
  private:
+  template <class Places>
+  void gather_places(const WorkingSurface& surface, std::uint32_t point, const Places& places);
+
   static constexpr std::size_t kInline = 32;
   // One more than a block holds: the successor of the last.
   static constexpr std::size_t padded(std::size_t size) {
@@ -59,6 +64,11 @@ class RingOffsets {
 /// Face quadric, constraints and tie-break from gathered offsets.
 [[nodiscard]] PointQuadric point_quadric(WorkingSurface& surface, std::uint32_t point,
                                          const QuadricOptions& options, const RingOffsets& offsets);
+
+/// The same in another pose.
+[[nodiscard]] PointQuadric point_quadric(WorkingSurface& surface, std::uint32_t point,
+                                         const QuadricOptions& options, const RingOffsets& offsets,
+                                         const PosePlaces& pose);
 
 /// O(ring); O(ring^2) at feature points.
 [[nodiscard]] PointQuadric point_quadric(WorkingSurface& surface, std::uint32_t point,

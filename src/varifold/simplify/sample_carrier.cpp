@@ -30,7 +30,7 @@ namespace {
 // Some samples with one place along the Morton curve.
 struct SampleGroup {
   std::uint32_t triangle;
-  std::uint32_t from, to;  // kNone; or the ends of the edge that it is on
+  std::uint32_t from, to;  // the ends of the edge that it is on; a vertex and kNone; or kNone both
 };
 
 struct SampleGroups {
@@ -48,7 +48,7 @@ void add_vertices(const TriangleMesh& mesh, const SampleOptions& options, Sample
   for (std::size_t slot = 0; slot < mesh.indices.size(); ++slot)
     triangle_of[mesh.indices[slot]] = static_cast<std::uint32_t>(slot / 3);
   for (std::uint32_t v = options.share; v < mesh.vertex_count(); v += options.shares)
-    if (triangle_of[v] != kNone) groups.add(mesh.positions[v], {triangle_of[v], kNone, kNone});
+    if (triangle_of[v] != kNone) groups.add(mesh.positions[v], {triangle_of[v], v, kNone});
 }
 
 void add_insides(const TriangleMesh& mesh, const SampleOptions& options, SampleGroups& groups) {
@@ -111,15 +111,15 @@ void for_each_sample(const DetailedMesh& detailed, const SampleOptions& options,
   for (std::size_t place = 0; place < order.size(); ++place) {
     if (place + kAhead < order.size()) __builtin_prefetch(&all.groups[order[place + kAhead]]);
     const SampleGroup& group = all.groups[order[place]];
-    if (group.from == kNone) {
-      f(SurfaceSample{all.places[order[place]], group.triangle});
+    if (group.to == kNone) {
+      f(SurfaceSample{all.places[order[place]], group.triangle, group.from, group.from, 0});
       continue;
     }
     const Vec3 a = mesh.positions[group.from], way = mesh.positions[group.to] - a;
     const float released_at = kReleaseAt * glm::dot(way, way);
     for (std::uint32_t i = 1; i <= options.on_edges; ++i) {
       const float part = static_cast<float>(i) / static_cast<float>(options.on_edges + 1);
-      f(SurfaceSample{a + part * way, group.triangle,
+      f(SurfaceSample{a + part * way, group.triangle, group.from, group.to, part,
                       2 * i == options.on_edges + 1 ? 2 * released_at : released_at});
     }
   }

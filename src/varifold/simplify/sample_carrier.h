@@ -39,6 +39,9 @@ class VerticesByPlace {
 struct SurfaceSample {
   Vec3 position;
   std::uint32_t triangle;
+  /// It is `part` of the way between two vertices; kNone where it lies inside a triangle.
+  std::uint32_t from = kNone, to = kNone;
+  float part = 0;
   /// The sample is let go when it comes to a triangle of this area, doubled; beside such ones its
   /// neighbours tell as much.
   float released_at = std::numeric_limits<float>::infinity();
@@ -83,9 +86,10 @@ class SampleCarrier {
   [[nodiscard]] std::uint32_t level() const { return walk_.level(); }
 
   /// One collapse, to level() - 1. `nearest` finds the triangle that a sample goes to, as
-  /// NearestTriangle does; visit(sample, residual) gets each Sample that the collapse moved, and
-  /// the way to the point where it is now attached. A sample whose triangle is so great that it is
-  /// let go is visited for the last time.
+  /// NearestTriangle does, or by the number of the sample (then there is no residual);
+  /// visit(sample, residual) gets each Sample that the collapse moved, and the way to the point
+  /// where it is now attached. A sample whose triangle is so great that it is let go is visited for
+  /// the last time.
   ///
   /// A collapse that leaves none of the triangles around its point and moves none (is_ear()) hands
   /// its samples to the triangles at its target.
@@ -114,6 +118,8 @@ class SampleCarrier {
     };
     if constexpr (requires(NearestBatch batch) { nearest.find(batch); }) {
       find_in_batches(nearest, move_to);
+    } else if constexpr (requires(const Sample& sample) { nearest.find(sample); }) {
+      for (const Sample& sample : moving_) move_to(sample, nearest.find(sample), Vec3(0));
     } else {
       for (const Sample& sample : moving_) {
         Vec3 residual;

@@ -5,6 +5,7 @@
 #include <varifold/simplify/energy_collapser.h>
 #include <varifold/simplify/input_fault.h>
 #include <varifold/simplify/placement_collapser.h>
+#include <varifold/simplify/pose_field.h>
 #include <varifold/simplify/sequence_builder.h>
 #include <varifold/simplify/stop_report.h>
 #include <algorithm>
@@ -58,6 +59,41 @@ void cut_below(DetailedMesh& detailed, std::uint32_t level) {
   for (std::uint32_t& l : sequence.triangle_level) l = l > level ? l - level : 0;
 }
 
+// The shapes beside that at rest which count.
+std::vector<std::span<const Vec3>> other_shapes(const TriangleMesh& mesh, const PoseUse& use) {
+  std::vector<std::span<const Vec3>> shapes;
+  if (use.of_mesh)
+    for (const Pose& pose : mesh.poses) shapes.emplace_back(pose.positions);
+  for (const Pose& pose : use.samples) shapes.emplace_back(pose.positions);
+  return shapes;
+}
+
+std::vector<Pose> gather_samples(std::span<const Pose> samples,
+                                 const std::vector<std::uint32_t>& original_vertex) {
+  std::vector<Pose> gathered;
+  for (const Pose& sample : samples) {
+    Pose& pose = gathered.emplace_back();
+    pose.name = sample.name;
+    pose.positions.reserve(original_vertex.size());
+    for (const std::uint32_t v : original_vertex) pose.positions.push_back(sample.positions[v]);
+  }
+  return gathered;
+}
+
+// What the options ask for and poses stand in the way of; empty where nothing does.
+std::string pose_conflict(const TriangleMesh& mesh, const SimplifyOptions& options) {
+  for (const Pose& pose : options.poses.samples)
+    if (pose.positions.size() != mesh.positions.size())
+      return "a sampled pose has " + std::to_string(pose.positions.size()) + " positions for " +
+             std::to_string(mesh.positions.size()) + " vertices";
+  if (mesh.poses.empty() && options.poses.samples.empty() && !mesh.has_skin()) return {};
+  if (options.placement == Placement::kOptimal)
+    return "vertices of a mesh with poses or a skin must stay where they are (placement kept)";
+  if (options.metric == Metric::kEnergy)
+    return "energy is not defined for several poses (metric quadric)";
+  return {};
+}
+
 CollapseLog run_kept(WorkingSurface& surface, Collapser& collapser,
                      const SimplifyOptions& options) {
   RoundOptions rounds;
@@ -92,6 +128,8 @@ CollapseLog run_energy(const EnergyInput& input, const SimplifyOptions& options,
 Result<Simplification> simplify(const TriangleMesh& mesh, const SimplifyOptions& options) {
   if (std::string fault = input_fault(mesh); !fault.empty())
     return fail(ErrorKind::kInvalidInput, std::move(fault));
+  if (std::string conflict = pose_conflict(mesh, options); !conflict.empty())
+    return fail(ErrorKind::kUnsupported, std::move(conflict));
   const auto start = Clock::now();
   Simplification result;
 
@@ -111,18 +149,23 @@ Result<Simplification> simplify(const TriangleMesh& mesh, const SimplifyOptions&
   CollapserOptions collapser_options;
   collapser_options.legality = options.legality;
   Collapser collapser(surface, &attributes, collapser_options);
+  const std::vector<std::span<const Vec3>> shapes = other_shapes(mesh, options.poses);
+  const PoseField poses =
+      shapes.empty() ? PoseField() : PoseField(surface, shapes, options.threads);
+  if (!poses.empty()) collapser.poses = &poses;
   PlacementLog placement;
   const CollapseLog log =
       by_energy ? run_energy({surface, mesh, &attributes}, options, placed ? &placement : nullptr)
       : placed  ? run_placed({surface, mesh, &attributes}, options, placement)
                 : run_kept(surface, collapser, options);
   if (log.cancelled) return fail(ErrorKind::kCancelled, "cancelled while simplifying");
-  result.scratch_bytes = surface.bytes() + attributes.bytes() + log.queue_bytes;
+  result.scratch_bytes = surface.bytes() + attributes.bytes() + poses.bytes() + log.queue_bytes;
 
   // Number the mesh by the sequence.
   const std::size_t steps = steps_to_target(log, all_faces, options.target_triangles);
   result.stop = report_stop(surface, collapser, options, steps == log.entries.size());
   result.detailed = build_sequence(mesh, surface, log, steps);
+  result.detailed.samples = gather_samples(options.poses.samples, result.detailed.original_vertex);
   if (placed) add_placement(result.detailed, surface, placement, steps);
   result.collapse_seconds = seconds_since(start);
 

@@ -11,6 +11,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,10 +29,19 @@ enum class Metric {
   kEnergy,   ///< change of Hoppe's energy over samples of the original: measured, slower
 };
 
+/// Which shapes beside that at rest matter to costs, legality and measured errors.
+struct PoseUse {
+  bool of_mesh = true;  ///< TriangleMesh::poses
+  /// More of them: what a skin does, for example. They are no part of the result. A place for each
+  /// vertex of the mesh; normals are not looked at.
+  std::span<const Pose> samples;
+};
+
 struct SimplifyOptions {
   Placement placement = Placement::kKept;
   Metric metric = Metric::kQuadric;
   EnergyOptions energy;  ///< for Metric::kEnergy
+  PoseUse poses;
   AttributeWeights attributes;
   LegalityOptions legality;
   /// Stop at the finest level that has at most so many triangles. 0: go on while anything is legal.
@@ -83,10 +93,14 @@ struct Simplification {
 /// themselves (vertex_kind.h). Vertices that no triangle uses, and triangles without three distinct
 /// positions, are left out. Vertices with equal attributes are one.
 ///
+/// Poses: one order for all of them; costs are means over the poses, and what is legal is so in
+/// each. Vertices are one point only where no pose parts them (weld_points()).
+///
 /// Guarantees: every level has the Euler characteristic, borders and orientation of the input; no
 /// triangle turned by a step by more than 75 degrees; same bytes for any number of threads.
 /// Errors: kInvalidInput when indices or array sizes are wrong or positions are not finite;
-/// kCancelled. O(n log n) time, under 200 bytes of scratch a vertex without attributes.
+/// kUnsupported for poses with another placement or metric than the first ones; kCancelled. O(n log
+/// n) time, under 200 bytes of scratch a vertex without attributes.
 [[nodiscard]] Result<Simplification> simplify(const TriangleMesh& mesh,
                                               const SimplifyOptions& options = {});
 

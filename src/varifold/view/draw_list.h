@@ -1,7 +1,7 @@
 // DrawList: what a model gives to whatever draws it: render/, a game engine, the web.
 #pragma once
 
-#include <varifold/base/math.h>
+#include <varifold/mesh/pose.h>
 #include <cstdint>
 #include <span>
 
@@ -34,7 +34,8 @@ struct ElementRange {
 
 /// Spans over buffers that the model or instance owns; valid until that changes.
 ///
-/// `normals`, `texcoords` and `colors` are empty or have one entry per position. Every index is
+/// `normals`, `texcoords`, `colors`, `skin` and the arrays of each of `poses` are empty or have one
+/// entry per position. Every index is
 /// kStripRestart or below the number of positions. `changed_vertices` and `changed_indices` name
 /// what was written since the previous list of the same instance, in any order, overlapping or
 /// not; whoever draws may upload nothing else, apart from elements beyond the previous size, which
@@ -44,6 +45,8 @@ struct DrawList {
   std::span<const Vec3> normals;
   std::span<const Vec2> texcoords;
   std::span<const Color> colors;
+  std::span<const JointWeights> skin;
+  std::span<const Pose> poses;
   std::span<const std::uint32_t> indices;
   std::span<const DrawRange> ranges;
   std::span<const ElementRange> changed_vertices;

@@ -13,6 +13,8 @@ namespace varifold {
   list.normals = mesh.normals;
   list.texcoords = mesh.texcoords;
   list.colors = mesh.colors;
+  list.skin = mesh.skin;
+  list.poses = mesh.poses;
   return list;
 }
 

@@ -38,10 +38,10 @@ TriangleMesh extract_level(const TriangleMesh& attributes, std::uint32_t vertex_
     if (!from.empty()) to.assign(from.begin(), from.begin() + vertex_count);
   };
   copy_pose_names(attributes, mesh);
-  prefix(attributes.skin, mesh.skin);
-  for (std::size_t i = 0; i < mesh.poses.size(); ++i) {
-    prefix(attributes.poses[i].positions, mesh.poses[i].positions);
-    prefix(attributes.poses[i].normals, mesh.poses[i].normals);
+  prefix(list.skin, mesh.skin);
+  for (std::size_t i = 0; i < list.poses.size(); ++i) {
+    prefix(list.poses[i].positions, mesh.poses[i].positions);
+    prefix(list.poses[i].normals, mesh.poses[i].normals);
   }
   prefix(list.positions, mesh.positions);
   prefix(list.normals, mesh.normals);

@@ -1,6 +1,7 @@
 #include <varifold/models/patch_tree/draw_slots.h>
 
 #include <varifold/models/patch_tree/extract.h>
+#include <varifold/view/draw_vertices.h>
 #include <algorithm>
 #include <utility>
 
@@ -110,12 +111,7 @@ DrawList DrawSlots::list(std::span<const PatchDraw> draws, bool switches) {
   listed_ = draws.size();
   switched_ = switches;
 
-  const TriangleMesh& vertices = tree_->data().vertices;
-  DrawList list;
-  list.positions = vertices.positions;
-  list.normals = vertices.normals;
-  list.texcoords = vertices.texcoords;
-  list.colors = vertices.colors;
+  DrawList list = draw_vertices(tree_->data().vertices);
   list.indices = indices_;
   list.ranges = ranges_;
   list.changed_indices = changed_;

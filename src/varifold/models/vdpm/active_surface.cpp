@@ -1,5 +1,7 @@
 #include <varifold/models/vdpm/active_surface.h>
 
+#include <varifold/mesh/vertex_arrays.h>
+#include <varifold/view/draw_vertices.h>
 #include <algorithm>
 
 namespace varifold {
@@ -103,12 +105,7 @@ DrawList ActiveSurface::draw_list() {
   const std::uint32_t more = full.vertex_count() - base;
   const float level =
       more > 0 ? static_cast<float>(vertex_count() - base) / static_cast<float>(more) : 1;
-  const TriangleMesh& buffer = vertices_.buffer();
-  DrawList list;
-  list.positions = buffer.positions;
-  list.normals = buffer.normals;
-  list.texcoords = buffer.texcoords;
-  list.colors = buffer.colors;
+  DrawList list = draw_vertices(vertices_.buffer());
   list.indices = triangles_.indices();
   list.ranges = triangles_.ranges(level);
   list.changed_vertices = vertices_.take_changed();
@@ -120,6 +117,7 @@ TriangleMesh ActiveSurface::extract() const {
   const TriangleMesh& full = model_->attributes();
   const TriangleMesh& buffer = vertices_.buffer();
   TriangleMesh mesh;
+  copy_pose_names(full, mesh);
   mesh.materials = full.materials;
   mesh.images = full.images;
   std::vector<std::uint32_t> number(vertices_.slots(), kNone);  // per slot
@@ -127,10 +125,9 @@ TriangleMesh ActiveSurface::extract() const {
     if (!vertices_.is_active(v)) continue;
     const std::uint32_t slot = vertices_.slot(v);
     number[slot] = mesh.vertex_count();
-    mesh.positions.push_back(buffer.positions[slot]);
-    if (full.has_normals()) mesh.normals.push_back(buffer.normals[slot]);
-    if (full.has_texcoords()) mesh.texcoords.push_back(buffer.texcoords[slot]);
-    if (full.has_colors()) mesh.colors.push_back(buffer.colors[slot]);
+    for_each_vertex_array(buffer, mesh, [&](const auto& values, auto& kept) {
+      if (!values.empty()) kept.push_back(values[slot]);
+    });
   }
   const auto append = [&](std::uint32_t first, std::uint32_t count) {
     for (std::uint32_t t = first; t < first + count; ++t) {

@@ -55,7 +55,8 @@ class ActiveVertices {
   }
 
   /// Moves a slot toward the attributes `index` of `goal`, by the n-th part of what is left; with
-  /// n = 1 it has them, byte for byte. Normals keep a length of 1. `goal` may be buffer().
+  /// n = 1 it has them, byte for byte; joints and their weights change only then. Normals keep a
+  /// length of 1. `goal` may be buffer().
   void approach(std::uint32_t slot, const TriangleMesh& goal, std::uint32_t index,
                 std::uint32_t n) {
     if (n == 1) {
@@ -77,12 +78,15 @@ class ActiveVertices {
   [[nodiscard]] std::size_t bytes() const;
 
  private:
+  template <class Visit>
+  void for_each_used(const Visit& visit);
   std::uint32_t new_slot();
   void write_more(std::uint32_t slot, const TriangleMesh& from, std::uint32_t index);
   void approach_more(std::uint32_t slot, const TriangleMesh& goal, std::uint32_t index, float part);
 
   TriangleMesh buffer_;
-  bool has_normals_ = false, has_texcoords_ = false, has_colors_ = false, has_more_ = false;
+  std::vector<bool> is_used_;  // the arrays of the mesh, in the order of for_each_vertex_array()
+  bool has_more_ = false;      // than positions
   std::vector<std::uint32_t> slot_of_;  // per vertex of the model
   std::vector<std::uint32_t> free_;
   DirtyPages dirty_;

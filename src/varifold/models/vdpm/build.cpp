@@ -1,6 +1,7 @@
 #include <varifold/models/vdpm/build.h>
 
 #include <varifold/models/vdpm/assemble.h>
+#include <varifold/models/vdpm/shape_bounds.h>
 #include <utility>
 
 namespace varifold {
@@ -20,6 +21,7 @@ ViewDependentMesh build_view_dependent_mesh(const DetailedMesh& detailed,
   data.mesh = detailed.mesh;
   data.mesh.indices = {};
   data.levels = LevelTable(detailed.sequence);
+  if (detailed.has_shapes()) data.centers = shape_centers(detailed);
   data.bounds.reserve(bounds.size());
   for (const StepBounds& b : bounds)
     data.bounds.push_back(

@@ -7,6 +7,7 @@
 #include <varifold/models/vdpm/encoding.h>
 #include <varifold/models/vdpm/encoding_parts.h>
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace varifold {
@@ -33,6 +34,9 @@ class Decoder {
     if (auto taken = take_steps(); !taken) return pass(taken.error());
     std::vector<PackedBounds> bounds(levels_.finest_level());
     if (auto taken = take_bounds(bounds); !taken) return pass(taken.error());
+    std::vector<Vec3> centers;
+    if (has_centers_ && !take_centers(centers))
+      return section_.fault("the centres end too early, or are not finite");
     if (!section_.at_end()) return section_.fault("there are bytes behind the end");
     const SequenceHistory history(detailed_.sequence, std::move(taken_), std::move(taken_end_),
                                   std::move(first_corners_));
@@ -42,6 +46,7 @@ class Decoder {
     data.mesh.indices = {};
     data.levels = std::move(levels_);  // the sequence has no errors
     data.bounds = std::move(bounds);
+    data.centers = std::move(centers);
     return ViewDependentMesh(std::move(data));
   }
 
@@ -102,12 +107,14 @@ class Decoder {
   Result<void> take_steps() {
     const std::uint32_t base = levels_.triangle_count(0);
     const auto corners = section_.take_array<std::uint32_t>(std::uint64_t{3} * base);
-    const auto moves = section_.take<std::uint32_t>();
+    const auto flags = section_.take<std::uint32_t>();
     const auto steps = section_.take_bytes(section_.take<std::uint64_t>());
-    if (!section_.good() || moves > 1) return section_.fault("the base ends too early");
+    if (!section_.good() || flags > (vdpm::kMovesVertices | vdpm::kHasCenters))
+      return section_.fault("the base ends too early");
     if (triangles() - base > 8 * std::uint64_t{steps.size()})
       return section_.fault("there are fewer bits than triangles");
-    moves_vertices_ = moves == 1;
+    moves_vertices_ = (flags & vdpm::kMovesVertices) != 0;
+    has_centers_ = (flags & vdpm::kHasCenters) != 0;
     if (!replay(corners, steps)) return section_.fault("the steps are damaged");
     if (!moves_vertices_) return {};
 
@@ -206,6 +213,19 @@ class Decoder {
     return {};
   }
 
+  bool take_centers(std::vector<Vec3>& centers) {
+    const auto bytes = section_.take_bytes(std::uint64_t{levels_.finest_level()} * sizeof(Vec3));
+    if (!section_.good()) return false;
+    SectionReader reader(bytes);
+    centers.resize(levels_.finest_level());
+    bool is_finite = true;
+    for (Vec3& center : centers) {
+      take_vector(reader, center, 3);
+      for (int i = 0; i < 3; ++i) is_finite = is_finite && std::isfinite(center[i]);
+    }
+    return is_finite;
+  }
+
   [[nodiscard]] std::uint32_t triangles() const {
     return levels_.triangle_count(levels_.finest_level());
   }
@@ -214,7 +234,7 @@ class Decoder {
   int threads_;
   DetailedMesh detailed_;
   LevelTable levels_;
-  bool moves_vertices_ = false;
+  bool moves_vertices_ = false, has_centers_ = false;
   std::vector<std::uint32_t> base_of_range_;
   std::vector<std::uint32_t> taken_, taken_end_, first_corners_;  // a SequenceHistory
   std::vector<std::uint32_t> next_of_range_, end_of_range_;       // numbers of triangles to come

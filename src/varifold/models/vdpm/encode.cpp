@@ -84,12 +84,14 @@ std::vector<std::byte> encode_view_dependent_mesh(const ViewDependentMesh& model
   LevelTableCoder::append(data.levels, bytes);
   append_ranges(model, bytes);
   append_array<std::uint32_t>(bytes, data.base_corners);
-  append_little(bytes, static_cast<std::uint32_t>(model.moves_vertices() ? 1 : 0));
+  append_little(bytes, (model.moves_vertices() ? vdpm::kMovesVertices : 0u) |
+                           (data.centers.empty() ? 0u : vdpm::kHasCenters));
   const std::vector<std::byte> steps = encode_steps(model);
   append_little(bytes, static_cast<std::uint64_t>(steps.size()));
   bytes.insert(bytes.end(), steps.begin(), steps.end());
   if (model.moves_vertices()) append_attributes(data.placed, bytes, false);
   append_bounds(data.bounds, bytes);
+  for (const Vec3& center : data.centers) append_vector(bytes, center, 3);
   return bytes;
 }
 

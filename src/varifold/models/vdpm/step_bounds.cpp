@@ -1,6 +1,8 @@
 #include <varifold/models/vdpm/step_bounds.h>
 
+#include <varifold/models/vdpm/bound_codes.h>
 #include <varifold/models/vdpm/deviation_space.h>
+#include <varifold/models/vdpm/shape_bounds.h>
 #include <varifold/models/vdpm/vertical_nearest.h>
 #include <varifold/models/vdpm/watch_bounds.h>
 #include <varifold/simplify/sample_carrier.h>
@@ -11,27 +13,8 @@ namespace varifold {
 
 namespace {
 
-// Floats are rounded a few times on their way; the bounds must hold all the same.
-constexpr double kRounding = 1 + 1e-5;
-constexpr float kCosineRounding = 1e-6f;
-
-std::uint16_t length_code(double length) {
-  return static_cast<std::uint16_t>(error_code(static_cast<float>(length * kRounding)));
-}
-
-// The code of a cone about the sum of some normals, or about an axis that is given.
-std::uint32_t cone_of(const std::vector<Vec3>& normals, std::optional<std::uint32_t> axis_code) {
-  Vec3 sum(0);
-  for (const Vec3& n : normals) sum += n;
-  if (!axis_code && !(glm::dot(sum, sum) > 0)) return kWideConeCode;
-  const std::uint32_t code = axis_code ? *axis_code : cone_code::code_of_axis(sum);
-  const Vec3 axis = unpack_cone(code).axis;
-  float cosine = normals.empty() ? -1.0f : 1.0f;
-  for (const Vec3& n : normals) cosine = std::min(cosine, glm::dot(axis, n));
-  // Beyond 90 degrees the angle does not matter, but the axis does.
-  if (cosine <= kCosineRounding) return cone_code::with_angle(code, 1);
-  return cone_code::with_angle(code, std::sqrt((1 - double{cosine} + kCosineRounding) / 2));
-}
+using bound_codes::cone_of;
+using bound_codes::length_code;
 
 // Measures the star of a collapse, before and after it.
 class StarMeasure {
@@ -174,7 +157,12 @@ bool measure_step_bounds(const DetailedMesh& detailed, std::span<const std::uint
   {
     std::optional<SequenceHistory> own;
     if (history == nullptr && !detailed.sequence.moves_vertices()) history = &own.emplace(detailed);
-    if (!measure_own_bounds(detailed, options, history, centers, bounds)) return false;
+    if (detailed.has_shapes()) {
+      centers = shape_centers(detailed);
+      if (!measure_bounds_in_shapes(detailed, options, history, centers, bounds)) return false;
+    } else if (!measure_own_bounds(detailed, options, history, centers, bounds)) {
+      return false;
+    }
   }
   nest_bounds(watch_parent, centers, bounds);
   return true;

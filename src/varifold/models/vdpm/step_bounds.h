@@ -76,7 +76,8 @@ struct StepBoundsOptions {
 ///   triangles that the collapse leaves of its star; where it leaves none, from its target;
 /// - nested balls, errors and cones hold the own ones of all steps of the watch subtree.
 /// The centre of both balls is the position of `vertex` where the split makes it (with kept
-/// vertices, its only one).
+/// vertices, its only one). Where the mesh takes several shapes (DetailedMesh::shapes()), all of
+/// this holds in every blend of them, and the centres are shape_centers() (shape_bounds.h).
 ///
 /// O(n log n) expected; 32 bytes of scratch a step and thread share beside those of
 /// SampleCarrier. A history of the sequence saves making one. Returns false when cancelled.

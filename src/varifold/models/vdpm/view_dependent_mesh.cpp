@@ -9,12 +9,15 @@ namespace varifold {
 ViewDependentMesh::ViewDependentMesh(ViewDependentMeshData data) : data_(std::move(data)) {
   base_vertices_ = data_.levels.vertex_count(0);
   one_vertex_a_step_ = data_.mesh.vertex_count() - base_vertices_ == step_count();
+  std::vector<const std::vector<Vec3>*> all{&data_.mesh.positions, &data_.placed.positions,
+                                            &data_.centers};
+  for (const Pose& pose : data_.mesh.poses) all.push_back(&pose.positions);
   Box box;
-  for (const auto* positions : {&data_.mesh.positions, &data_.placed.positions})
+  for (const auto* positions : all)
     for (const Vec3& p : *positions) box.add(p);
   if (box.empty()) return;
   ball_.center = box.center();
-  for (const auto* positions : {&data_.mesh.positions, &data_.placed.positions})
+  for (const auto* positions : all)
     for (const Vec3& p : *positions)
       ball_.radius = std::max(ball_.radius, glm::length(p - ball_.center) * (1 + 1e-6f));
 }
@@ -25,8 +28,8 @@ std::size_t ViewDependentMesh::bytes() const {
                             data_.placed_vertex.size() + data_.finer.size() +
                             data_.first_look.size();
   return vertex_bytes(data_.mesh) + data_.levels.bytes() +
-         data_.bounds.size() * sizeof(PackedBounds) + data_.records.bytes() +
-         words * sizeof(std::uint32_t) + vertex_bytes(data_.placed);
+         data_.bounds.size() * sizeof(PackedBounds) + data_.centers.size() * sizeof(Vec3) +
+         data_.records.bytes() + words * sizeof(std::uint32_t) + vertex_bytes(data_.placed);
 }
 
 }  // namespace varifold

@@ -28,7 +28,9 @@ struct ViewDependentMeshData {
   TriangleMesh mesh;  ///< vertex attributes at full detail, materials, images, ranges
   LevelTable levels;
   std::vector<PackedBounds> bounds;  ///< per step
-  StepRecords records;               ///< per step
+  /// Per step, of both balls, where the mesh takes several shapes; else they follow from positions.
+  std::vector<Vec3> centers;
+  StepRecords records;  ///< per step
   std::vector<std::uint32_t> watch_roots;
   std::vector<std::uint32_t> base_corners;    ///< three for each triangle of the base
   std::vector<std::uint32_t> base_triangles;  ///< their numbers, ascending
@@ -67,8 +69,10 @@ class ViewDependentMesh : public LevelQueries<ViewDependentMesh> {
   [[nodiscard]] const PackedBounds& packed_bounds(std::uint32_t step) const {
     return data_.bounds[step];
   }
-  /// Of both balls: where the split puts the step's point.
+  /// Of both balls: where the split puts the step's point; the middle of all places where that is,
+  /// where the mesh takes several shapes.
   [[nodiscard]] const Vec3& center(std::uint32_t step) const {
+    if (!data_.centers.empty()) return data_.centers[step];
     const std::uint32_t vertex = first_vertex(step);
     const std::uint32_t look = data_.first_look.empty() ? kNone : data_.first_look[vertex];
     return look == kNone ? data_.mesh.positions[vertex] : data_.placed.positions[look];
@@ -79,7 +83,8 @@ class ViewDependentMesh : public LevelQueries<ViewDependentMesh> {
   /// Hints that the bounds, or the record, of a step are wanted soon.
   void prefetch_bounds(std::uint32_t step) const {
     __builtin_prefetch(&data_.bounds[step]);
-    __builtin_prefetch(&data_.mesh.positions[first_vertex(step)]);
+    __builtin_prefetch(data_.centers.empty() ? &data_.mesh.positions[first_vertex(step)]
+                                             : &data_.centers[step]);
   }
   void prefetch_record(std::uint32_t step) const { data_.records.prefetch(step); }
 
