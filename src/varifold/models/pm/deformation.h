@@ -9,8 +9,9 @@
 
 namespace varifold {
 
-/// Skin, poses and rig of the model, as floats; empty where it has none. Vertices stand in the
-/// order in which a stream brings them, so that a part of the bytes holds a coarser level.
+/// Skin, poses and rig of the model, as floats; empty where it has none. Vertex by vertex in the
+/// order of their coming, so that a part of the bytes holds a coarser level. The model must not
+/// move vertices back, as simplify() has it of meshes with poses or a skin.
 /// Described in docs/formats/progressive_mesh.md. O(vertices * poses).
 [[nodiscard]] std::vector<std::byte> encode_deformation(const ProgressiveMesh& model);
 
