@@ -4,6 +4,7 @@
 #include <apps/cli/input.h>
 #include <fmt/format.h>
 #include <varifold/io/container.h>
+#include <varifold/mesh/rig_pose.h>
 #include <varifold/mesh/topology.h>
 #include <varifold/models/common/uniform_model.h>
 #include <memory>
@@ -45,6 +46,37 @@ void report_attributes(const TriangleMesh& mesh, Report& report) {
   report.set("materials", std::move(materials));
   report.row("materials", joined(names));
   report.set("images", mesh.images.size());
+}
+
+/// Rows where something moves, JSON always.
+void report_motion(const TriangleMesh& mesh, Report& report) {
+  const auto count = [&](const char* key, std::size_t number) {
+    if (number > 0)
+      report.count(key, key, number);
+    else
+      report.set(key, 0);
+  };
+  count("poses", mesh.poses.size());
+  Json names = Json::array();
+  for (const Pose& pose : mesh.poses) names.push_back(pose.name);
+  report.set("pose_names", std::move(names));
+  count("joints", mesh.rig ? mesh.rig->joints.size() : 0);
+  count("animations", mesh.rig ? mesh.rig->animations.size() : 0);
+  Json list = Json::array();
+  if (mesh.rig) {
+    for (const Animation& animation : mesh.rig->animations) {
+      const TimeRange range = time_range(animation);
+      list.push_back({{"name", animation.name},
+                      {"first_second", range.first},
+                      {"last_second", range.last},
+                      {"channels", animation.channels.size()}});
+      report.row(fmt::format("animation {}", list.size() - 1),
+                 fmt::format("{}{:.6g} to {:.6g} s, {} channels",
+                             animation.name.empty() ? "" : animation.name + ", ", range.first,
+                             range.last, animation.channels.size()));
+    }
+  }
+  report.set("animation_list", std::move(list));
 }
 
 void report_topology(const TopologyReport& topology, Report& report) {
@@ -96,6 +128,7 @@ CommandResult mesh_info(const InfoCommand& command, const std::filesystem::path&
   report.count("triangles", "triangles", mesh.triangle_count());
   report_bounds(bounds(mesh), report);
   report_attributes(mesh, report);
+  report_motion(mesh, report);
   report_topology(analyze_topology(mesh, weld_points(mesh), command.common.threads), report);
   report.set("warnings", imported->warnings);
   return finish(report, command.common);
@@ -157,6 +190,7 @@ void report_model(const std::shared_ptr<const Model>& shared, Report& report) {
   for (const Vec3& p : mesh.positions) box.add(p);
   report_bounds(box, report);
   report_attributes(mesh, report);
+  report_motion(mesh, report);
   report_levels(model, report);
   if constexpr (kDrawsStrips<Model>) report_index_samples(shared, report);
   report.bytes("model_bytes", "in memory", model.bytes());

@@ -149,6 +149,7 @@ std::vector<std::string> attribute_names(const TriangleMesh& mesh) {
   if (mesh.has_normals()) names.emplace_back("normals");
   if (mesh.has_texcoords()) names.emplace_back("texcoords");
   if (mesh.has_colors()) names.emplace_back("colors");
+  if (mesh.has_skin()) names.emplace_back("skin");
   return names;
 }
 

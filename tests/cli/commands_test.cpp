@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <tests/cli/run_tool.h>
+#include <tests/support/meshes.h>
+#include <tests/support/rigged_meshes.h>
 #include <tests/support/test_files.h>
 #include <varifold/io/mesh_file.h>
 #include <varifold/mesh/validation.h>
@@ -80,6 +82,22 @@ TEST_F(Commands, InfoOfAMesh) {
   EXPECT_EQ(told["topology"]["closed"], true);
   EXPECT_EQ(told["topology"]["genus"], 0);
   EXPECT_EQ(told["attributes"], json({"normals", "texcoords"}));
+}
+
+TEST_F(Commands, InfoOfWhatMoves) {
+  const TriangleMesh mesh = test::with_random_rig(test::icosphere(80), 1, {2, 5, 2});
+  ASSERT_TRUE(write_mesh(mesh, path("m.glb")));
+  const json told = run_json({"info", path("m.glb")}, {"poses", "joints", "animations"});
+  EXPECT_EQ(told["poses"], 2);
+  EXPECT_EQ(told["joints"], 5);
+  EXPECT_EQ(told["animations"], 2);
+  EXPECT_EQ(told["pose_names"], json({"pose 0", "pose 1"}));
+  EXPECT_EQ(told["animation_list"][1]["name"], "animation 1");
+  EXPECT_EQ(told["attributes"], json({"normals", "skin"}));
+  EXPECT_NE(run_tool({"info", path("m.glb")}).out.find("animation 0"), std::string::npos);
+  make_mesh("still.ply");
+  const json still = run_json({"info", path("still.ply")}, {"poses", "joints", "animations"});
+  EXPECT_EQ(still["poses"], 0);
 }
 
 TEST_F(Commands, InfoOfAModel) {

@@ -3,6 +3,7 @@
 #include <tests/io/io_support.h>
 #include <tests/strip/oriented_triangles.h>
 #include <tests/support/meshes.h>
+#include <tests/support/rigged_meshes.h>
 #include <tests/support/test_files.h>
 #include <varifold/io/gltf.h>
 #include <varifold/io/mapped_file.h>
@@ -81,6 +82,11 @@ TEST(MeshFile, TellsWhatAFormatCannotHold) {
   EXPECT_EQ(unwritten_parts(mesh, MeshFormat::kPly), std::vector<std::string>{"materials"});
   EXPECT_EQ(unwritten_parts(mesh, MeshFormat::kObj),
             std::vector<std::string>{"alpha of vertex colours"});
+  EXPECT_TRUE(unwritten_parts(mesh, MeshFormat::kGlb).empty());
+  mesh = test::with_random_rig(test::octahedron(), 1);
+  for (const MeshFormat format : {MeshFormat::kPly, MeshFormat::kObj})
+    EXPECT_EQ(unwritten_parts(mesh, format),
+              (std::vector<std::string>{"poses", "skin", "animations"}));
   EXPECT_TRUE(unwritten_parts(mesh, MeshFormat::kGlb).empty());
 }
 

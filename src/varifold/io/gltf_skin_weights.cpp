@@ -119,10 +119,11 @@ std::vector<JointWeights> read_joint_weights(const JsonElement& attributes, std:
       own.assign(1, {leading, 1});
       sum = 1;
     }
-    // Sums of bytes over 255 and the like are off by roundings.
-    constexpr double kRoundings = 1e-6f;
+    // Exporters round; what is nearer than that to 1 stays bit by bit.
+    constexpr double kRoundings = 1e-6;
+    constexpr double kNotable = 1e-3;
     const bool is_off = !(std::abs(sum - 1) <= kRoundings);
-    if (is_off) ++repairs.normalized;
+    if (!(std::abs(sum - 1) <= kNotable)) ++repairs.normalized;
     for (std::size_t i = 0; i < own.size(); ++i) {
       if (own[i].weight == 0) continue;
       if (own[i].joint >= joints.size()) {

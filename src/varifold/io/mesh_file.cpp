@@ -7,6 +7,7 @@
 #include <varifold/io/output_file.h>
 #include <varifold/io/ply.h>
 #include <varifold/io/stl.h>
+#include <varifold/mesh/rig.h>
 #include <algorithm>
 #include <cctype>
 
@@ -123,6 +124,11 @@ Result<void> write_mesh(const TriangleMesh& mesh, const std::filesystem::path& p
 
 std::vector<std::string> unwritten_parts(const TriangleMesh& mesh, MeshFormat format) {
   std::vector<std::string> parts;
+  if (format == MeshFormat::kPly || format == MeshFormat::kObj) {
+    if (!mesh.poses.empty()) parts.emplace_back("poses");
+    if (mesh.has_skin()) parts.emplace_back("skin");
+    if (mesh.rig && !mesh.rig->animations.empty()) parts.emplace_back("animations");
+  }
   if (format == MeshFormat::kPly && !mesh.materials.empty()) parts.emplace_back("materials");
   if (format != MeshFormat::kObj) return parts;
   const auto has_alpha = [](const Color& color) { return color.a != 255; };

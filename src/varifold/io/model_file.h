@@ -12,11 +12,13 @@
 
 namespace varifold {
 
-/// The kind of a container that holds a progressive mesh, and the tag of its only chunk: a stream
+/// The kind of a container that holds a progressive mesh, and the tag of its main chunk: a stream
 /// of encode_progressive_mesh(). It stands last, so that a reader of a pipe (ContainerStream,
 /// ProgressiveStreamReader) can refine while it arrives; other chunks may come before it.
 inline constexpr std::uint32_t kProgressiveMeshKind = ModelKind<ProgressiveMesh>::kFourcc;
 inline constexpr std::uint32_t kProgressiveMeshStream = ModelKind<ProgressiveMesh>::kChunk;
+/// The chunk before it, of models that have skin, poses or rig: encode_deformation().
+inline constexpr std::uint32_t kDeformationChunk = fourcc("POSE");
 
 struct ModelFileOptions {
   EncodeOptions encoding;

@@ -23,11 +23,13 @@ struct RigNode {
   Vec3 translation{0};
   Quat rotation{1, 0, 0, 0};
   Vec3 scale{1};
+  friend bool operator==(const RigNode&, const RigNode&) = default;
 };
 
 struct Joint {
   std::uint32_t node = 0;  ///< in Rig::nodes
   Mat4 inverse_bind{1};    ///< from the mesh to the joint's own frame in the pose of the binding
+  friend bool operator==(const Joint&, const Joint&) = default;
 };
 
 enum class ChannelTarget : std::uint8_t { kTranslation, kRotation, kScale, kPoseWeights };
@@ -42,11 +44,13 @@ struct AnimationChannel {
   Interpolation interpolation = Interpolation::kLinear;
   std::vector<float> times;   ///< seconds, ascending
   std::vector<float> values;  ///< `width` a key; with kCubicSpline in-tangent, value, out-tangent
+  friend bool operator==(const AnimationChannel&, const AnimationChannel&) = default;
 };
 
 struct Animation {
   std::string name;
   std::vector<AnimationChannel> channels;
+  friend bool operator==(const Animation&, const Animation&) = default;
 };
 
 /// Immutable and shared by all levels of a mesh.
@@ -58,6 +62,7 @@ struct Rig {
   std::vector<Joint> joints;
   std::vector<float> pose_weights;  ///< of TriangleMesh::poses where nothing is animated; or empty
   std::vector<Animation> animations;
+  friend bool operator==(const Rig&, const Rig&) = default;
 };
 
 }  // namespace varifold

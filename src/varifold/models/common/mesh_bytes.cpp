@@ -1,5 +1,8 @@
 #include <varifold/models/common/mesh_bytes.h>
 
+#include <varifold/mesh/rig.h>
+#include <varifold/models/common/rig_bytes.h>
+#include <algorithm>
 #include <string>
 #include <string_view>
 
@@ -7,7 +10,15 @@ namespace varifold {
 
 namespace {
 
-enum Attribute : std::uint32_t { kNormals = 1, kTexcoords = 2, kColors = 4, kAll = 7 };
+enum Attribute : std::uint32_t {
+  kNormals = 1,
+  kTexcoords = 2,
+  kColors = 4,
+  kSkin = 8,
+  kPoses = 16,
+  kRig = 32,
+  kAll = 63
+};
 
 constexpr std::size_t kLeastMaterial = 69;
 constexpr std::size_t kLeastImage = 3 * 4 + 8;
@@ -80,15 +91,24 @@ void append_images(const std::vector<Image>& images, std::vector<std::byte>& byt
   }
 }
 
-void append_attributes(const TriangleMesh& mesh, std::vector<std::byte>& bytes) {
+void append_attributes(const TriangleMesh& mesh, std::vector<std::byte>& bytes, bool has_rig) {
+  has_rig = has_rig && mesh.rig;
   append_little(bytes, mesh.vertex_count());
   append_little(bytes, (mesh.has_normals() ? kNormals : 0u) |
                            (mesh.has_texcoords() ? kTexcoords : 0u) |
-                           (mesh.has_colors() ? kColors : 0u));
+                           (mesh.has_colors() ? kColors : 0u) | (mesh.has_skin() ? kSkin : 0u) |
+                           (mesh.poses.empty() ? 0u : kPoses) | (has_rig ? kRig : 0u));
   append_vectors(mesh.positions, bytes);
   append_vectors(mesh.normals, bytes);
   append_vectors(mesh.texcoords, bytes);
   append_vectors(mesh.colors, bytes);
+  for (const JointWeights& followed : mesh.skin) append_joints(followed, bytes);
+  if (!mesh.poses.empty()) append_pose_names(mesh.poses, bytes);
+  for (const Pose& pose : mesh.poses) {
+    append_vectors(pose.positions, bytes);
+    append_vectors(pose.normals, bytes);
+  }
+  if (has_rig) append_rig(*mesh.rig, bytes);
 }
 
 std::vector<Material> take_materials(SectionReader& section) {
@@ -115,7 +135,29 @@ std::vector<Image> take_images(SectionReader& section) {
   return images;
 }
 
-void take_attributes(SectionReader& section, TriangleMesh& mesh) {
+namespace {
+
+void take_skin(SectionReader& section, std::uint32_t count, TriangleMesh& mesh) {
+  const auto part = section.take_bytes(std::uint64_t{count} * kJointWeightsBytes);
+  if (!section.good()) return;
+  SectionReader reader(part);
+  mesh.skin.reserve(count);
+  for (std::uint32_t v = 0; v < count; ++v) mesh.skin.push_back(take_joints(reader));
+}
+
+void take_poses(SectionReader& section, std::uint32_t count, TriangleMesh& mesh) {
+  PoseHead head = take_pose_names(section);
+  mesh.poses = std::move(head.poses);
+  for (std::size_t k = 0; k < mesh.poses.size() && section.good(); ++k) {
+    take_vectors(section, count, mesh.poses[k].positions);
+    if (head.has_normals[k]) take_vectors(section, count, mesh.poses[k].normals);
+  }
+}
+
+}  // namespace
+
+void take_attributes(SectionReader& section, TriangleMesh& mesh,
+                     const std::shared_ptr<const Rig>& rig) {
   const auto count = section.take<std::uint32_t>();
   const auto present = section.take<std::uint32_t>();
   if ((present & ~std::uint32_t{kAll}) != 0) section.fail_here();
@@ -123,6 +165,20 @@ void take_attributes(SectionReader& section, TriangleMesh& mesh) {
   if ((present & kNormals) != 0) take_vectors(section, count, mesh.normals);
   if ((present & kTexcoords) != 0) take_vectors(section, count, mesh.texcoords);
   if ((present & kColors) != 0) take_vectors(section, count, mesh.colors);
+  if ((present & kSkin) != 0) take_skin(section, count, mesh);
+  if ((present & kPoses) != 0) take_poses(section, count, mesh);
+  mesh.rig = (present & kRig) != 0 && section.good() ? take_rig(section, mesh.poses.size()) : rig;
+  const std::size_t joints = mesh.rig ? mesh.rig->joints.size() : 0;
+  for (const JointWeights& followed : mesh.skin)
+    if (!is_sound(followed, joints)) section.fail_here();
+}
+
+bool have_same_attributes(const TriangleMesh& a, const TriangleMesh& b) {
+  return a.has_normals() == b.has_normals() && a.has_texcoords() == b.has_texcoords() &&
+         a.has_colors() == b.has_colors() && a.has_skin() == b.has_skin() &&
+         std::equal(
+             a.poses.begin(), a.poses.end(), b.poses.begin(), b.poses.end(),
+             [](const Pose& p, const Pose& q) { return p.normals.empty() == q.normals.empty(); });
 }
 
 Result<std::vector<Image>> read_images(std::span<const std::byte> bytes, std::size_t offset) {

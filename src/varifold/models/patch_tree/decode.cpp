@@ -1,4 +1,6 @@
 #include <varifold/base/checksum.h>
+#include <varifold/mesh/rig.h>
+#include <varifold/models/common/rig_bytes.h>
 #include <varifold/models/common/varint.h>
 #include <varifold/models/patch_tree/block_bytes.h>
 #include <varifold/models/patch_tree/encoding.h>
@@ -28,6 +30,8 @@ class BlockReader {
     take_vectors(to_.normals);
     take_vectors(to_.texcoords);
     take_colors();
+    take_skin();
+    take_poses();
     if (!section_.good()) return "a vertex is not finite, or is not there";
     if (const char* fault = take_survivors()) return fault;
     if (const char* fault = take_controllers()) return fault;
@@ -56,6 +60,21 @@ class BlockReader {
     for (std::size_t v = 0; v < to_.colors.size(); ++v)
       for (int i = 0; i < 4; ++i)
         to_.colors[v][i] = static_cast<std::uint8_t>(bytes[4 * v + static_cast<std::size_t>(i)]);
+  }
+  void take_skin() {
+    const std::size_t joints = head_.rig ? head_.rig->joints.size() : 0;
+    for (JointWeights& followed : to_.skin) {
+      followed = take_joints(section_);
+      if (!is_sound(followed, joints)) section_.fail_here();
+    }
+  }
+  void take_poses() {
+    const std::size_t count = head_.vertex_count_of(node_);
+    for (Pose& pose : to_.poses) {
+      take_vectors(std::span(pose.positions).subspan(to_.first_in_poses, count));
+      if (!pose.normals.empty())
+        take_vectors(std::span(pose.normals).subspan(to_.first_in_poses, count));
+    }
   }
   // Numbers below `count`.
   void take_numbers(std::uint32_t count, std::span<std::uint16_t> to) {
@@ -130,6 +149,9 @@ PatchArrays arrays_of(const PatchTreeHead& head, std::uint32_t node, PatchTreeDa
   to.normals = part(data.vertices.normals, at.vertex, end.vertex);
   to.texcoords = part(data.vertices.texcoords, at.vertex, end.vertex);
   to.colors = part(data.vertices.colors, at.vertex, end.vertex);
+  to.skin = part(data.vertices.skin, at.vertex, end.vertex);
+  to.poses = data.vertices.poses;
+  to.first_in_poses = at.vertex;
   to.survivors = part(data.survivors, at.vertex, end.vertex);
   to.corners = part(data.corners, 3 * std::size_t{at.triangle}, 3 * std::size_t{end.triangle});
   to.controllers = part(data.controllers, at.controller, end.controller);
@@ -143,6 +165,13 @@ void make_room(const PatchTreeHead& head, PatchTreeData& data) {
   if (head.has_normals) data.vertices.normals.resize(all.vertex);
   if (head.has_texcoords) data.vertices.texcoords.resize(all.vertex);
   if (head.has_colors) data.vertices.colors.resize(all.vertex);
+  if (head.has_skin) data.vertices.skin.resize(all.vertex);
+  data.vertices.poses = head.poses;
+  for (std::size_t k = 0; k < head.poses.size(); ++k) {
+    data.vertices.poses[k].positions.resize(all.vertex);
+    if (head.poses_have_normals[k]) data.vertices.poses[k].normals.resize(all.vertex);
+  }
+  data.vertices.rig = head.rig;
   data.survivors.resize(all.vertex);
   data.corners.resize(3 * std::size_t{all.triangle});
   data.controllers.resize(all.controller);

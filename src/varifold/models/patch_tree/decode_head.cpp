@@ -1,5 +1,6 @@
 #include <varifold/base/checksum.h>
 #include <varifold/models/common/mesh_bytes.h>
+#include <varifold/models/common/rig_bytes.h>
 #include <varifold/models/common/varint.h>
 #include <varifold/models/patch_tree/block_bytes.h>
 #include <varifold/models/patch_tree/check_topology.h>
@@ -68,11 +69,19 @@ const char* HeadReader::take_materials_and_images() {
     for (const std::uint32_t image : material.textures)
       if (image != kNone && image >= head_.images.size()) return "a material names an image beyond";
   const auto present = section_.take<std::uint32_t>();
-  if (present > (kPatchNormals | kPatchTexcoords | kPatchColors)) return "unknown attributes";
+  if (present > kPatchAll) return "unknown attributes";
   head_.has_normals = (present & kPatchNormals) != 0;
   head_.has_texcoords = (present & kPatchTexcoords) != 0;
   head_.has_colors = (present & kPatchColors) != 0;
-  return nullptr;
+  head_.has_skin = (present & kPatchSkin) != 0;
+  if ((present & kPatchPoses) != 0) {
+    PoseHead poses = take_pose_names(section_);
+    head_.poses = std::move(poses.poses);
+    head_.poses_have_normals = std::move(poses.has_normals);
+  }
+  if ((present & kPatchRig) != 0 && section_.good())
+    head_.rig = take_rig(section_, head_.poses.size());
+  return section_.good() ? nullptr : "the rig is damaged, or ends too early";
 }
 
 const char* HeadReader::take_levels() {
@@ -168,6 +177,9 @@ std::uint64_t HeadReader::least_block(std::uint32_t node) const {
   if (head_.has_normals) bytes_a_vertex += sizeof(Vec3);
   if (head_.has_texcoords) bytes_a_vertex += sizeof(Vec2);
   if (head_.has_colors) bytes_a_vertex += sizeof(Color);
+  if (head_.has_skin) bytes_a_vertex += kJointWeightsBytes;
+  for (const bool has_normals : head_.poses_have_normals)
+    bytes_a_vertex += (has_normals ? 2 : 1) * sizeof(Vec3);
   const std::uint32_t parent = head_.topology.parent[node];
   if (parent != kNone) bytes_a_vertex += bytes_of_number(head_.vertex_count_of(parent));
   return (end.vertex - at.vertex) * bytes_a_vertex + (end.controller - at.controller) +

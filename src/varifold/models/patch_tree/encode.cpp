@@ -1,5 +1,6 @@
 #include <varifold/base/checksum.h>
 #include <varifold/models/common/mesh_bytes.h>
+#include <varifold/models/common/rig_bytes.h>
 #include <varifold/models/common/varint.h>
 #include <varifold/models/patch_tree/block_bytes.h>
 #include <varifold/models/patch_tree/encoding.h>
@@ -38,6 +39,13 @@ void append_block(const PatchTree& tree, std::uint32_t node, Bytes& bytes) {
   append_vectors(data.vertices.normals, at.vertex, end.vertex, bytes);
   append_vectors(data.vertices.texcoords, at.vertex, end.vertex, bytes);
   append_vectors(data.vertices.colors, at.vertex, end.vertex, bytes);
+  if (data.vertices.has_skin())
+    for (std::uint32_t v = at.vertex; v < end.vertex; ++v)
+      append_joints(data.vertices.skin[v], bytes);
+  for (const Pose& pose : data.vertices.poses) {
+    append_vectors(pose.positions, at.vertex, end.vertex, bytes);
+    append_vectors(pose.normals, at.vertex, end.vertex, bytes);
+  }
   const std::uint32_t parent = data.topology.parent[node];
   if (parent != kNone)
     append_numbers(std::span(data.survivors).subspan(at.vertex, end.vertex - at.vertex),
@@ -84,6 +92,16 @@ void append_bounds(const PatchTreeData& data, Bytes& bytes) {
   }
 }
 
+void append_attribute_head(const TriangleMesh& mesh, Bytes& bytes) {
+  append_little(bytes, (mesh.has_normals() ? kPatchNormals : 0u) |
+                           (mesh.has_texcoords() ? kPatchTexcoords : 0u) |
+                           (mesh.has_colors() ? kPatchColors : 0u) |
+                           (mesh.has_skin() ? kPatchSkin : 0u) |
+                           (mesh.poses.empty() ? 0u : kPatchPoses) | (mesh.rig ? kPatchRig : 0u));
+  if (!mesh.poses.empty()) append_pose_names(mesh.poses, bytes);
+  if (mesh.rig) append_rig(*mesh.rig, bytes);
+}
+
 // The sizes of the blocks are known once they have been written; they are written twice, so that
 // memory holds them once. Returns the bytes of all.
 std::size_t append_counts(const PatchTree& tree, Bytes& bytes) {
@@ -114,9 +132,7 @@ std::vector<std::byte> encode_patch_tree(const PatchTree& tree) {
   bytes.resize(kPatchTreePrefix);
   append_materials(data.vertices.materials, bytes);
   append_images(data.vertices.images, bytes);
-  append_little(bytes, (data.vertices.has_normals() ? kPatchNormals : 0u) |
-                           (data.vertices.has_texcoords() ? kPatchTexcoords : 0u) |
-                           (data.vertices.has_colors() ? kPatchColors : 0u));
+  append_attribute_head(data.vertices, bytes);
   append_topology(data.topology, bytes);
   append_bounds(data, bytes);
   const std::size_t blocks = append_counts(tree, bytes);

@@ -9,6 +9,7 @@
 #include <varifold/models/patch_tree/patch_tree.h>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -33,7 +34,10 @@ struct PatchTreeHead {
   /// Materials and images; which attributes vertices have, of which there are none yet.
   std::vector<Material> materials;
   std::vector<Image> images;
-  bool has_normals = false, has_texcoords = false, has_colors = false;
+  bool has_normals = false, has_texcoords = false, has_colors = false, has_skin = false;
+  std::vector<Pose> poses;               ///< names alone
+  std::vector<bool> poses_have_normals;  ///< one for each
+  std::shared_ptr<const Rig> rig;        ///< or null
   PatchTopology topology;
   std::vector<PatchBounds> bounds;
   std::vector<PatchOffsets> offsets;
@@ -68,6 +72,10 @@ struct PatchArrays {
   std::span<std::uint16_t> survivors, corners;
   std::span<std::uint8_t> controllers;
   std::span<PatchRange> ranges;
+  std::span<JointWeights> skin;
+  /// All poses of the head; their arrays have room for the vertices from `first_in_poses` on.
+  std::span<Pose> poses;
+  std::size_t first_in_poses = 0;
 };
 
 /// Reads a block, [first_byte[node], first_byte[node + 1]) of all bytes. Of other nodes it needs

@@ -30,8 +30,9 @@ struct EncodeReport {
 };
 
 /// With the default options decode_progressive_mesh() gives the same model, byte for byte; where
-/// the model comes from build_progressive_mesh() or from a decoder. Options beyond their limits are
-/// cut. About 7 bytes a vertex for positions of 16 bits, 11 for floats. O(n) time.
+/// the model comes from build_progressive_mesh() or from a decoder. Skin, poses and rig are left
+/// out: deformation.h has them. Options beyond their limits are cut. About 7 bytes a vertex for
+/// positions of 16 bits, 11 for floats. O(n) time.
 [[nodiscard]] std::vector<std::byte> encode_progressive_mesh(const ProgressiveMesh& model,
                                                              const EncodeOptions& options = {},
                                                              EncodeReport* report = nullptr);

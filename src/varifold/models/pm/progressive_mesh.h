@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace varifold {
@@ -59,6 +60,11 @@ class ProgressiveMesh {
   explicit ProgressiveMesh(ProgressiveMeshData data);
 
   [[nodiscard]] const ProgressiveMeshData& data() const { return data_; }
+  /// The arrays themselves; the model is left empty.
+  [[nodiscard]] ProgressiveMeshData release() && {
+    checkpoints_.clear();
+    return std::move(data_);
+  }
   /// The vertex attributes at full detail, materials and images.
   [[nodiscard]] const TriangleMesh& attributes() const { return data_.mesh; }
   /// Levels run from 0, the base, to this, full detail.

@@ -119,12 +119,10 @@ class Decoder {
     if (!moves_vertices_) return {};
 
     CollapseSequence& sequence = detailed_.sequence;
-    take_attributes(section_, sequence.placed);
     const TriangleMesh &mesh = detailed_.mesh, &placed = sequence.placed;
+    take_attributes(section_, sequence.placed, mesh.rig);
     if (!section_.good() || placed.vertex_count() != sequence.placed_vertex.size() ||
-        (placed.vertex_count() > 0 && (placed.has_normals() != mesh.has_normals() ||
-                                       placed.has_texcoords() != mesh.has_texcoords() ||
-                                       placed.has_colors() != mesh.has_colors())))
+        (placed.vertex_count() > 0 && !have_same_attributes(placed, mesh)))
       return section_.fault("the places of moved vertices are not there");
     return {};
   }

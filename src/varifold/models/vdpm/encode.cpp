@@ -89,7 +89,7 @@ std::vector<std::byte> encode_view_dependent_mesh(const ViewDependentMesh& model
   const std::vector<std::byte> steps = encode_steps(model);
   append_little(bytes, static_cast<std::uint64_t>(steps.size()));
   bytes.insert(bytes.end(), steps.begin(), steps.end());
-  if (model.moves_vertices()) append_attributes(data.placed, bytes);
+  if (model.moves_vertices()) append_attributes(data.placed, bytes, false);
   append_bounds(data.bounds, bytes);
   for (const Vec3& center : data.centers) append_vector(bytes, center, 3);
   return bytes;

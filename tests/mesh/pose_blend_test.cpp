@@ -1,0 +1,90 @@
+#include <varifold/mesh/pose_blend.h>
+
+#include <gtest/gtest.h>
+#include <tests/support/meshes.h>
+#include <tests/support/rigged_meshes.h>
+#include <varifold/base/random.h>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/matrix.hpp>
+
+namespace varifold {
+namespace {
+
+/// One vertex by the definition, in doubles.
+DVec3 blended(const TriangleMesh& mesh, const std::vector<float>& weights, std::uint32_t v) {
+  DVec3 sum = mesh.positions[v];
+  for (std::size_t k = 0; k < mesh.poses.size(); ++k)
+    sum += double{weights[k]} * (DVec3(mesh.poses[k].positions[v]) - DVec3(mesh.positions[v]));
+  return sum;
+}
+
+TEST(PoseBlend, IsTheSumOfWeightedDifferences) {
+  Random random(1);
+  for (const test::NamedMesh& group : test::all_groups()) {
+    SCOPED_TRACE(group.name);
+    const TriangleMesh mesh = test::with_random_rig(group.mesh, 7);
+    for (int trial = 0; trial < 3; ++trial) {
+      std::vector<float> weights;
+      for (std::size_t k = 0; k < mesh.poses.size(); ++k)
+        weights.push_back(static_cast<float>(3 * random.uniform() - 1));
+      const PosedVertices found = blend_poses(mesh, weights);
+      for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+        const DVec3 expected = blended(mesh, weights, v);
+        ASSERT_LE(glm::distance(DVec3(found.positions[v]), expected),
+                  1e-7 * (1 + glm::length(expected)));
+      }
+      ASSERT_EQ(found.normals.size(), mesh.normals.size());
+      for (const Vec3& normal : found.normals)
+        ASSERT_TRUE(normal == Vec3(0) || std::abs(glm::length(normal) - 1) < 1e-5f);
+    }
+  }
+}
+
+TEST(PoseBlend, GivesEveryPoseAndTheRestBitByBit) {
+  for (const test::NamedMesh& group : test::all_groups()) {
+    SCOPED_TRACE(group.name);
+    const TriangleMesh mesh = test::with_random_rig(group.mesh, 8);
+    for (const std::vector<float>& none : {std::vector<float>(), std::vector<float>(3, 0.0f)}) {
+      EXPECT_EQ(blend_poses(mesh, none).positions, mesh.positions);
+      EXPECT_EQ(blend_poses(mesh, none).normals, mesh.normals);
+    }
+    for (std::size_t k = 0; k < mesh.poses.size(); ++k) {
+      std::vector<float> weights(mesh.poses.size(), 0.0f);
+      weights[k] = 1;
+      EXPECT_EQ(blend_poses(mesh, weights).positions, mesh.poses[k].positions);
+    }
+  }
+}
+
+TEST(SkinVertices, MoveByTheBlendOfMatrices) {
+  Random random(2);
+  const auto number = [&] { return static_cast<float>(2 * random.uniform() - 1); };
+  for (const test::NamedMesh& group : test::all_groups()) {
+    SCOPED_TRACE(group.name);
+    const TriangleMesh mesh = test::with_random_rig(group.mesh, 10);
+    std::vector<glm::mat4> matrices(5, glm::mat4(1));
+    EXPECT_EQ(skin_vertices(mesh, matrices).positions, mesh.positions);
+    for (glm::mat4& matrix : matrices)
+      for (int i = 0; i < 12; ++i) matrix[i / 3][i % 3] = number();
+    const PosedVertices found = skin_vertices(mesh, matrices);
+    for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+      DVec3 expected(0);
+      glm::dmat3 linear(0);
+      for (int i = 0; i < 4; ++i) {
+        const glm::dmat4 matrix(matrices[mesh.skin[v].joints[i]]);
+        const double weight = mesh.skin[v].weights[i];
+        expected += weight * DVec3(matrix * glm::dvec4(DVec3(mesh.positions[v]), 1.0));
+        linear += weight * glm::dmat3(matrix);
+      }
+      ASSERT_LE(glm::distance(DVec3(found.positions[v]), expected),
+                1e-6 * (1 + glm::length(DVec3(mesh.positions[v]))));
+      if (!mesh.has_normals() || std::abs(glm::determinant(linear)) < 1e-3) continue;
+      const DVec3 normal =
+          glm::normalize(glm::transpose(glm::inverse(linear)) * DVec3(mesh.normals[v]));
+      ASSERT_LT(glm::distance(DVec3(found.normals[v]), normal), 1e-3);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace varifold
