@@ -2,6 +2,7 @@
 #include <apps/cli/commands.h>
 #include <apps/cli/input.h>
 #include <fmt/format.h>
+#include <varifold/measure/check_frame_strips.h>
 #include <varifold/measure/check_model.h>
 #include <varifold/measure/check_patch_tree.h>
 #include <varifold/measure/surface_distance.h>
@@ -9,6 +10,7 @@
 #include <varifold/models/common/uniform_model.h>
 #include <memory>
 #include <string>
+#include <type_traits>
 
 namespace varifold::cli {
 namespace {
@@ -101,6 +103,8 @@ CommandResult check_levels(const CheckCommand& command, const std::filesystem::p
   auto check = [&] {
     if constexpr (UniformModel<Model>)
       return varifold::check_model<InstanceOf<Model>>(model, options);
+    else if constexpr (std::is_same_v<Model, FrameStrips>)
+      return check_frame_strips(model, options);
     else
       return check_patch_tree(model, options);
   }();
@@ -116,7 +120,7 @@ CommandResult check_levels(const CheckCommand& command, const std::filesystem::p
   report.count("levels_checked", "levels checked", check->levels_checked);
   report.count("distances_checked", "errors measured again", check->distances_checked);
   if (HasFronts<Model>) report.count("fronts_checked", "fronts checked", check->fronts_checked);
-  if constexpr (!UniformModel<Model>)
+  if constexpr (std::is_same_v<Model, PatchTree>)
     report.count("collapsed_triangles", "collapsed in fronts", check->collapsed_triangles);
   report.seconds("seconds", "time", watch.seconds());
   return tell(command, check->faults, report);

@@ -53,15 +53,15 @@ CommandResult extract_from(const ExtractCommand& command, const std::shared_ptr<
     camera = *made;
   }
   InstanceOf<Model> instance(model);
+  const ChosenPose pose = choose_pose(command.input, model->attributes(), command.pose);
+  go_to_pose(instance, pose);
   const ChosenLevel chosen =
       go_to_choice<Model>(instance, command.level, command.places, camera ? &*camera : nullptr,
                           asks_for_view(command.view, command.level));
   warn_of_base(command.input, command.level, model->vertex_count(0), model->triangle_count(0));
   const std::optional<StripJoin> join = strip_join(command.strips, output);
   StripMesh level = level_mesh(instance, join);
-  if (!command.pose.empty())
-    level.mesh = frozen(std::move(level.mesh),
-                        choose_pose(command.input, model->attributes(), command.pose));
+  if (!command.pose.empty()) level.mesh = frozen(std::move(level.mesh), pose);
   const TriangleMesh& mesh = level.mesh;
   if (auto written = write_mesh_loudly(mesh, output, join ? &level.strips : nullptr); !written)
     return tl::unexpected(written.error());

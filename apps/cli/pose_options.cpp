@@ -63,7 +63,7 @@ Result<PosedInput> read_posed_surface(const std::string& mesh, const PoseSources
 
 PoseUse pose_use(const PosedInput& input, const PoseSources& sources) {
   PoseUse use;
-  use.orders = !sources.rest_only;
+  use.poses_order = use.samples_order = !sources.rest_only;
   use.samples = input.samples;
   return use;
 }

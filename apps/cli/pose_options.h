@@ -61,6 +61,13 @@ struct ChosenPose {
 [[nodiscard]] ChosenPose choose_pose(const std::string& input, const TriangleMesh& mesh,
                                      const PoseChoice& choice);
 
+/// Where a model simplifies shapes in different ways, it is told which one is shown.
+template <class Instance>
+void go_to_pose(Instance& instance, const ChosenPose& pose) {
+  if constexpr (requires { instance.go_to_frame(0u); })
+    instance.go_to_frame(instance.model().frame_for(pose.weights));
+}
+
 /// The mesh frozen in the pose: its places and normals, without poses, skin and rig. O(mesh).
 [[nodiscard]] TriangleMesh frozen(TriangleMesh mesh, const ChosenPose& pose);
 

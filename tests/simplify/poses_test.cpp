@@ -188,7 +188,7 @@ TEST(Poses, OneSequenceServesAllPosesOfAHorse) {
   SimplifyOptions options;
   options.measure_error = false;
   const DetailedMesh shared = simplified(posed->mesh, options).detailed;
-  options.poses.orders = false;
+  options.poses.poses_order = false;
   const DetailedMesh first = simplified(posed->mesh, options).detailed;
   const std::uint32_t budget = posed->mesh.triangle_count() / 10;
   const auto rms = [&](const DetailedMesh& detailed, std::size_t shape) {

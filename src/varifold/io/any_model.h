@@ -5,6 +5,7 @@
 #include <varifold/base/result.h>
 #include <varifold/io/container_table.h>
 #include <varifold/models/common/front_model.h>
+#include <varifold/models/lodstrips/frame_strips.h>
 #include <varifold/models/lodstrips/lod_strips.h>
 #include <varifold/models/mts/encoding.h>
 #include <varifold/models/mts/instance.h>
@@ -76,6 +77,21 @@ struct ModelKind<LodStrips> {
 };
 
 template <>
+struct ModelKind<FrameStrips> {
+  using Instance = FrameStripsInstance;
+  static constexpr const char* kName = "framestrips";
+  static constexpr std::uint32_t kFourcc = fourcc("frms");
+  static constexpr std::uint32_t kChunk = fourcc("DATA");
+  static constexpr bool kDense = false;
+  static Result<FrameStrips> decode(std::span<const std::byte> bytes) {
+    return decode_frame_strips(bytes);
+  }
+  static std::vector<std::byte> encode(const FrameStrips& model) {
+    return encode_frame_strips(model);
+  }
+};
+
+template <>
 struct ModelKind<StripFramework> {
   using Instance = StripFrameworkInstance;
   static constexpr const char* kName = "strips";
@@ -140,8 +156,8 @@ struct ModelList {
     (visit.template operator()<Models>(), ...);
   }
 };
-using AllModels = ModelList<ProgressiveMesh, StripFramework, LodStrips, MultiresolutionStrips,
-                            ViewDependentMesh, PatchTree>;
+using AllModels = ModelList<ProgressiveMesh, StripFramework, LodStrips, FrameStrips,
+                            MultiresolutionStrips, ViewDependentMesh, PatchTree>;
 
 /// One immutable model of any kind; std::visit with a generic lambda, whose parameter is a
 /// std::shared_ptr<const Model>. All kinds satisfy LeveledModel, their instances LeveledInstance.

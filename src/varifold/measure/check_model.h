@@ -61,6 +61,8 @@ using CheckedModel = std::remove_cvref_t<decltype(std::declval<const Instance&>(
 /// - error_exceeded: a vertex of the full mesh is farther from the level's surface than its error;
 ///   looked at where errors are measured. Where positions were rounded, the error of the full level
 ///   says by how much, and that much may be between the two.
+/// Levels of a mesh with poses are looked at in each pose, and their errors also in blends of them;
+/// faults have pose_ before their names.
 /// Fronts have the same faults, from wrong_count to flipped_triangle, with front_ before their
 /// names, and these:
 /// - front_not_identical: other triangles than a fresh instance has that is led there, than

@@ -59,9 +59,9 @@ struct ModelPoints {
 
 template <class Model>
 ModelPoints points_of(const Model& model) {
-  const std::span<const Vec3> positions = model.attributes().positions;
+  const std::vector<Vec3>& positions = model.attributes().positions;
   std::uint32_t vertices = model.vertex_count(0);
-  const WeldMap base = weld_exact(positions.first(vertices));
+  const WeldMap base = weld_points(model.attributes(), 0, vertices);
   ModelPoints points{base.class_of, {}, base.class_count};
   points.point_of.reserve(positions.size());
   points.target.assign(vertices, kNone);

@@ -7,6 +7,7 @@
 #include <varifold/measure/check_parts.h>
 #include <varifold/measure/front_checker.h>
 #include <varifold/measure/full_level.h>
+#include <varifold/measure/shape_checker.h>
 #include <varifold/measure/surface_distance.h>
 #include <varifold/mesh/weld.h>
 #include <varifold/models/common/uniform_model.h>
@@ -58,6 +59,7 @@ class ModelChecker {
     }
     std::vector<Fault> faults;
     faults_.append_to(faults);
+    pose_faults_.append_to(faults);
     result.faults.insert(result.faults.begin(), faults.begin(), faults.end());
     return result;
   }
@@ -71,6 +73,7 @@ class ModelChecker {
     if (!corners_exist(full)) return false;
     full_ = {full.extract(), check::canonical_triangles(whole_mesh(full)), points_,
              model_->error(finest), options_.threads};
+    shapes_ = {full_.mesh(), points_, options_.threads};
     return true;
   }
 
@@ -98,7 +101,9 @@ class ModelChecker {
       check_counts(fresh, mesh);
       if (FrontInstance<Instance>) full_.note_level(mesh);
       check_corners(mesh, level);
-      full_.check_surface(mesh, points_.at_level(level, mesh.vertex_count()), faults_, level);
+      const WeldMap points = points_.at_level(level, mesh.vertex_count());
+      full_.check_surface(mesh, points, faults_, level);
+      shapes_.check_surface(mesh, points, pose_faults_, level);
     }
     return true;
   }
@@ -181,6 +186,7 @@ class ModelChecker {
                        is_exceeded = true;
                  });
     if (is_exceeded) faults_.add("error_exceeded", level);
+    shapes_.check_distance(instance.extract(), model_->error(level), pose_faults_, level);
   }
 
   bool check_fronts([[maybe_unused]] ModelCheck& result) {
@@ -220,7 +226,9 @@ class ModelChecker {
   std::vector<std::uint32_t> levels_;
   check::FullLevel full_;
   std::vector<std::uint64_t> fingerprints_;  ///< per visited level, by a fresh instance
+  check::ShapeChecker shapes_;
   check::PlaceFaults faults_{"level"};
+  check::PlaceFaults pose_faults_{"level", "pose_"};
   std::uint32_t distances_checked_ = 0;
 };
 

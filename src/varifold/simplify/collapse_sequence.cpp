@@ -88,4 +88,28 @@ TriangleMesh mesh_at_level(const DetailedMesh& detailed, std::uint32_t level) {
   return mesh;
 }
 
+void cut_below(std::uint32_t level, CollapseSequence& sequence) {
+  if (level == 0) return;
+  const std::uint32_t base = sequence.vertices[level];
+  std::fill_n(sequence.target.begin(), base, kNone);
+  const auto drop = [&](auto& values) { values.erase(values.begin(), values.begin() + level); };
+  drop(sequence.vertices);
+  drop(sequence.triangles);
+  drop(sequence.error);
+  if (sequence.moves_vertices()) {
+    drop(sequence.first_placed);
+    const std::uint32_t unused = sequence.first_placed.front();
+    for (std::uint32_t& first : sequence.first_placed) first -= unused;
+    const auto drop_unused = [&](auto& values) {
+      if (!values.empty()) values.erase(values.begin(), values.begin() + unused);
+    };
+    drop_unused(sequence.placed_vertex);
+    drop_unused(sequence.placed.positions);
+    drop_unused(sequence.placed.normals);
+    drop_unused(sequence.placed.texcoords);
+    drop_unused(sequence.placed.colors);
+  }
+  for (std::uint32_t& l : sequence.triangle_level) l = l > level ? l - level : 0;
+}
+
 }  // namespace varifold

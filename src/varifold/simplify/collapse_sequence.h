@@ -79,6 +79,9 @@ struct DetailedMesh {
 /// for all models; O(mesh), whatever the level. Vertices keep their numbers.
 [[nodiscard]] TriangleMesh mesh_at_level(const DetailedMesh& detailed, std::uint32_t level);
 
+/// Makes that level the base. O(vertices + triangles).
+void cut_below(std::uint32_t level, CollapseSequence& sequence);
+
 /// The attributes of the vertices [0, vertices[level]) at a level, where placement moves them.
 /// O(vertices + steps above the level).
 void apply_placement(const CollapseSequence& sequence, std::uint32_t level, TriangleMesh& mesh);

@@ -9,18 +9,21 @@ namespace varifold {
 
 /// Shapes beside that at rest. Errors and bounds are measured in all of them.
 struct PoseUse {
-  bool orders = true;  ///< they order the collapses, too, and say what is legal
+  /// Whether TriangleMesh::poses, and the samples, order the collapses and say what is legal.
+  bool poses_order = true, samples_order = true;
   /// More than TriangleMesh::poses: what a skin does, for example. They are no part of the result.
   /// A place for each vertex of the mesh; normals are not looked at.
   std::span<const Pose> samples;
 };
 
-/// The places of the mesh's poses, then those of the samples.
-[[nodiscard]] inline std::vector<std::span<const Vec3>> other_shapes(
-    const TriangleMesh& mesh, std::span<const Pose> samples) {
+/// The places of those that order the collapses: poses, then samples.
+[[nodiscard]] inline std::vector<std::span<const Vec3>> ordering_shapes(const TriangleMesh& mesh,
+                                                                        const PoseUse& use) {
   std::vector<std::span<const Vec3>> shapes;
-  for (const Pose& pose : mesh.poses) shapes.emplace_back(pose.positions);
-  for (const Pose& pose : samples) shapes.emplace_back(pose.positions);
+  if (use.poses_order)
+    for (const Pose& pose : mesh.poses) shapes.emplace_back(pose.positions);
+  if (use.samples_order)
+    for (const Pose& pose : use.samples) shapes.emplace_back(pose.positions);
   return shapes;
 }
 

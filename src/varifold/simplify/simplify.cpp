@@ -30,32 +30,6 @@ std::size_t steps_to_target(const CollapseLog& log, std::uint32_t faces, std::ui
   return steps;
 }
 
-// Cuts a sequence that is not wanted below `level`: that level becomes the base.
-void cut_below(DetailedMesh& detailed, std::uint32_t level) {
-  CollapseSequence& sequence = detailed.sequence;
-  if (level == 0) return;
-  const std::uint32_t base = sequence.vertices[level];
-  std::fill_n(sequence.target.begin(), base, kNone);
-  const auto drop = [&](auto& values) { values.erase(values.begin(), values.begin() + level); };
-  drop(sequence.vertices);
-  drop(sequence.triangles);
-  drop(sequence.error);
-  if (sequence.moves_vertices()) {
-    drop(sequence.first_placed);
-    const std::uint32_t unused = sequence.first_placed.front();
-    for (std::uint32_t& first : sequence.first_placed) first -= unused;
-    const auto drop_unused = [&](auto& values) {
-      if (!values.empty()) values.erase(values.begin(), values.begin() + unused);
-    };
-    drop_unused(sequence.placed_vertex);
-    drop_unused(sequence.placed.positions);
-    drop_unused(sequence.placed.normals);
-    drop_unused(sequence.placed.texcoords);
-    drop_unused(sequence.placed.colors);
-  }
-  for (std::uint32_t& l : sequence.triangle_level) l = l > level ? l - level : 0;
-}
-
 std::vector<Pose> gather_samples(std::span<const Pose> samples,
                                  const std::vector<std::uint32_t>& original_vertex) {
   std::vector<Pose> gathered;
@@ -134,9 +108,7 @@ Result<Simplification> simplify(const TriangleMesh& mesh, const SimplifyOptions&
   CollapserOptions collapser_options;
   collapser_options.legality = options.legality;
   Collapser collapser(surface, &attributes, collapser_options);
-  PoseField poses;
-  if (options.poses.orders)
-    poses = PoseField(surface, other_shapes(mesh, options.poses.samples), options.threads);
+  const PoseField poses(surface, ordering_shapes(mesh, options.poses), options.threads);
   if (!poses.empty()) collapser.poses = &poses;
   PlacementLog placement;
   const CollapseLog log =
@@ -163,7 +135,7 @@ Result<Simplification> simplify(const TriangleMesh& mesh, const SimplifyOptions&
   }
   CollapseSequence& sequence = result.detailed.sequence;
   if (const std::uint32_t level = sequence.level_for_error(options.max_error); level > 0) {
-    cut_below(result.detailed, level);
+    cut_below(level, sequence);
     result.stop.reason = StopReason::kErrorReached;
     result.stop.advice.clear();
   }

@@ -41,6 +41,10 @@ struct TriangleStrips {
   return corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0];
 }
 
+/// The same strips, those of a material range beside each other in the order of the ranges.
+/// O(indices).
+[[nodiscard]] TriangleStrips sorted_by_range(const TriangleStrips& strips);
+
 /// How strips become one index buffer per material.
 enum class StripJoin {
   kRestart,    ///< divided by kStripRestart

@@ -5,7 +5,7 @@
 #include <varifold/base/random.h>
 #include <varifold/mesh/generators.h>
 #include <varifold/models/strips/draw_pages.h>
-#include <varifold/models/strips/strip_filter.h>
+#include <varifold/models/common/strip_filter.h>
 #include <algorithm>
 
 namespace varifold::test {

@@ -5,6 +5,7 @@
 #include <varifold/models/common/level_table_bytes.h>
 #include <varifold/models/common/mesh_bytes.h>
 #include <varifold/models/common/uniform_model.h>
+#include <varifold/models/lodstrips/strip_bytes.h>
 #include <varifold/view/draw_vertices.h>
 #include <array>
 #include <string>
@@ -31,19 +32,6 @@ Result<LodStrips::Form> take_form(std::uint32_t kind, SectionReader& section,
   }
 }
 
-// The materials of the ranges, each named once.
-bool take_ranges(SectionReader& section, TriangleMesh& mesh) {
-  const std::uint32_t count = section.take_count(sizeof(std::uint32_t));
-  std::vector<bool> seen(mesh.materials.size(), false);
-  for (std::uint32_t r = 0; r < count; ++r) {
-    const auto material = section.take<std::uint32_t>();
-    if (material >= seen.size() || seen[material]) return false;
-    seen[material] = true;
-    mesh.ranges.push_back({material, 0, 0});
-  }
-  return true;
-}
-
 }  // namespace
 
 std::string_view form_name(LodStripsForm form) {
@@ -67,8 +55,7 @@ std::vector<std::byte> encode_lod_strips(const LodStrips& model) {
   append_text(bytes, kTag);
   append_little(bytes, static_cast<std::uint32_t>(model.form_kind()));
   append_materials(model.attributes().materials, bytes);
-  append_little(bytes, static_cast<std::uint32_t>(model.attributes().ranges.size()));
-  for (const MaterialRange& range : model.attributes().ranges) append_little(bytes, range.material);
+  append_range_materials(model.attributes(), bytes);
   append_images(model.attributes().images, bytes);
   append_attributes(model.attributes(), bytes);
   LevelTableCoder::append(model.levels(), bytes);
@@ -83,7 +70,8 @@ Result<LodStrips> decode_lod_strips(std::span<const std::byte> bytes) {
   const auto kind = section.take<std::uint32_t>();
   TriangleMesh mesh;
   mesh.materials = take_materials(section);
-  if (!take_ranges(section, mesh)) return section.fault("a range has no material of its own");
+  if (!take_range_materials(section, mesh))
+    return section.fault("a range has no material of its own");
   mesh.images = take_images(section);
   take_attributes(section, mesh);
   if (!section.good()) return section.fault("the vertices end too early");

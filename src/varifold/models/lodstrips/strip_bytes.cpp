@@ -4,6 +4,23 @@
 
 namespace varifold {
 
+void append_range_materials(const TriangleMesh& mesh, std::vector<std::byte>& bytes) {
+  append_little(bytes, static_cast<std::uint32_t>(mesh.ranges.size()));
+  for (const MaterialRange& range : mesh.ranges) append_little(bytes, range.material);
+}
+
+bool take_range_materials(SectionReader& section, TriangleMesh& mesh) {
+  const std::uint32_t count = section.take_count(sizeof(std::uint32_t));
+  std::vector<bool> seen(mesh.materials.size(), false);
+  for (std::uint32_t r = 0; r < count; ++r) {
+    const auto material = section.take<std::uint32_t>();
+    if (material >= seen.size() || seen[material]) return false;
+    seen[material] = true;
+    mesh.ranges.push_back({material, 0, 0});
+  }
+  return true;
+}
+
 void append_strips(const TriangleStrips& strips, std::vector<std::byte>& bytes) {
   append_little(bytes, strips.count());
   for (std::uint32_t s = 0; s < strips.count(); ++s)

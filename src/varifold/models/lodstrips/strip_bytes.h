@@ -10,6 +10,11 @@
 
 namespace varifold {
 
+/// The materials of the ranges, whose triangles are not kept.
+void append_range_materials(const TriangleMesh& mesh, std::vector<std::byte>& bytes);
+/// Sets the ranges of a mesh that has its materials. False where one has no material of its own.
+[[nodiscard]] bool take_range_materials(SectionReader& section, TriangleMesh& mesh);
+
 void append_strips(const TriangleStrips& strips, std::vector<std::byte>& bytes);
 /// Every strip has kLeastStrip to kMostStrip indices, all below `vertex_count`, and a material
 /// range below `material_range_count`, or 0 where there are none. kInvalidInput.

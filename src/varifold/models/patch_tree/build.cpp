@@ -50,7 +50,9 @@ class Stopwatch {
 class Builder {
  public:
   Builder(const TriangleMesh& mesh, const PatchTreeOptions& options)
-      : mesh_(mesh), options_(options), shapes_(other_shapes(mesh, options.poses.samples)) {}
+      : mesh_(mesh),
+        options_(options),
+        shapes_(ordering_shapes(mesh, {true, true, options.poses.samples})) {}
 
   Result<PatchTreeBuild> build();
 
@@ -236,8 +238,10 @@ bool Builder::make_levels_of_detail() {
   const PoseField poses(surface_, shapes_, options_.threads);
   std::optional<ShapeTable> shapes;
   if (!poses.empty()) shapes.emplace(surface_, poses);
-  const PoseField* const ordering = options_.poses.orders && !poses.empty() ? &poses : nullptr;
-  LevelHalving halving(surface_, attributes_, {options_.threads, options_.progress, ordering});
+  const PoseField ordering(surface_, ordering_shapes(mesh_, options_.poses), options_.threads);
+  LevelHalving halving(
+      surface_, attributes_,
+      {options_.threads, options_.progress, ordering.empty() ? nullptr : &ordering});
   std::optional<LevelErrors> errors;  // made when the first collapses are done: they need room, too
   for (std::uint32_t level = 0;; ++level) {
     if (level + 1 == levels_.level_count()) {

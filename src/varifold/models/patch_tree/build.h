@@ -29,8 +29,8 @@ struct PatchTreeOptions {
   bool smooth_borders = true;
   PatchPriority priority = PatchPriority::kClosestPoint;
   AttributeWeights attributes;
-  /// Shapes beside that at rest; bounds and errors hold in every blend of all of them, whether they
-  /// order collapses or not.
+  /// Shapes beside that at rest; bounds and errors hold in every blend of all of them, also of
+  /// those that do not order the collapses.
   PoseUse poses;
   int threads = 0;  ///< 0 = all; the result does not depend on it
   Progress progress;

@@ -11,27 +11,6 @@
 
 namespace varifold {
 
-namespace {
-
-TriangleStrips sorted_by_range(const TriangleStrips& strips) {
-  if (std::is_sorted(strips.range.begin(), strips.range.end())) return strips;
-  std::vector<std::uint32_t> order(strips.count());
-  std::iota(order.begin(), order.end(), 0u);
-  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return strips.range[a] < strips.range[b];
-  });
-  TriangleStrips sorted;
-  sorted.indices.reserve(strips.indices.size());
-  for (const std::uint32_t s : order) {
-    const auto strip = strips.strip(s);
-    sorted.indices.insert(sorted.indices.end(), strip.begin(), strip.end());
-    sorted.end_strip(strips.range[s]);
-  }
-  return sorted;
-}
-
-}  // namespace
-
 StripFramework build_strip_framework(const DetailedMesh& detailed,
                                      const TriangleStrips& full_strips) {
   assert(!detailed.sequence.moves_vertices());

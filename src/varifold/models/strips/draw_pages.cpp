@@ -1,6 +1,6 @@
 #include <varifold/models/strips/draw_pages.h>
 
-#include <varifold/models/strips/strip_filter.h>
+#include <varifold/models/common/strip_filter.h>
 #include <varifold/models/strips/strip_pieces.h>
 #include <algorithm>
 
