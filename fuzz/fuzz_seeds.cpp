@@ -14,6 +14,7 @@
 #include <varifold/models/patch_tree/build.h>
 #include <varifold/models/patch_tree/encoding.h>
 #include <varifold/models/pm/build.h>
+#include <varifold/models/pm/deformation.h>
 #include <varifold/models/pm/encoding.h>
 #include <varifold/models/strips/build.h>
 #include <varifold/models/vdpm/build.h>
@@ -140,6 +141,9 @@ bool put_progressive_meshes(const std::filesystem::path& folder) {
   done = put(folder / "optimal", progressive(sphere, Placement::kOptimal, 8)) && done;
   done = put(folder / "planet",
              progressive(planet({{.triangles = 80}, 0.12f, false}), Placement::kKept, 10)) &&
+         done;
+  done = put(folder.parent_path() / "deformation" / "moving",
+             encode_deformation(build_progressive_mesh(simplify(moving())->detailed))) &&
          done;
   return put(folder / "all", progressive(with_everything(), Placement::kKept, 0)) && done;
 }
