@@ -89,7 +89,10 @@ void RigBuilder::find_moving_nodes() {
 
 std::uint16_t RigBuilder::add_joint(const BoundJoint& joint) {
   const std::size_t at = joint.place == kNone ? scene_.nodes.size() : joint.place;
-  for (const std::uint16_t known : joints_at_[at])
+  // Skins share few matrices of a node; a file that has many would make this quadratic.
+  constexpr std::size_t kMostCompared = 64;
+  const std::span known_here(joints_at_[at]);
+  for (const std::uint16_t known : known_here.first(std::min(known_here.size(), kMostCompared)))
     if (joints_[known].inverse_bind == joint.inverse_bind) return known;
   constexpr std::size_t kMostJoints = 65536;
   if (joints_.size() >= kMostJoints) {
