@@ -8,11 +8,13 @@
 #include <varifold/io/output_file.h>
 #include <varifold/io/ply.h>
 #include <varifold/mesh/generators.h>
+#include <varifold/mesh/rig.h>
 #include <varifold/models/lodstrips/build.h>
 #include <varifold/models/mts/build.h>
 #include <varifold/models/patch_tree/build.h>
 #include <varifold/models/patch_tree/encoding.h>
 #include <varifold/models/pm/build.h>
+#include <varifold/models/pm/deformation.h>
 #include <varifold/models/pm/encoding.h>
 #include <varifold/models/strips/build.h>
 #include <varifold/models/vdpm/build.h>
@@ -21,6 +23,7 @@
 #include <varifold/view/known_paths.h>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <string>
 
 using namespace varifold;
@@ -43,6 +46,34 @@ TriangleMesh with_everything() {
   mesh.materials.resize(2);
   mesh.materials[0].textures[0] = 0;
   mesh.ranges = {{0, 0, 1}, {1, 1, 1}};
+  return mesh;
+}
+
+/// With a pose, joints, and an animation of every interpolation.
+TriangleMesh moving() {
+  TriangleMesh mesh = with_everything();
+  mesh.poses = {{"a", mesh.positions, mesh.normals}, {"b", mesh.positions, {}}};
+  for (Vec3& position : mesh.poses[0].positions) position.z += 1;
+  mesh.poses[1].positions[2].x = 2;
+  mesh.skin.assign(4, {{0, 1, 0, 0}, {0.5f, 0.5f, 0, 0}});
+  Rig rig;
+  rig.nodes.resize(3);
+  rig.nodes[1].parent = 0;
+  rig.nodes[2] = {.name = "m", .parent = 1, .has_matrix = true};
+  rig.joints = {{1, Mat4(1)}, {2, Mat4(1)}};
+  rig.pose_weights = {0.5f, 0};
+  rig.animations = {
+      {"walk",
+       {{ChannelTarget::kTranslation, 0, 3, Interpolation::kLinear, {0, 1}, {0, 0, 0, 1, 2, 3}},
+        {ChannelTarget::kRotation, 1, 4, Interpolation::kLinear, {0, 1}, {0, 0, 0, 1, 1, 0, 0, 0}},
+        {ChannelTarget::kScale, 1, 3, Interpolation::kStep, {0.5f}, {1, 2, 1}},
+        {ChannelTarget::kPoseWeights,
+         0,
+         2,
+         Interpolation::kCubicSpline,
+         {0, 2},
+         std::vector<float>(12, 0.25f)}}}};
+  mesh.rig = std::make_shared<const Rig>(std::move(rig));
   return mesh;
 }
 
@@ -111,6 +142,9 @@ bool put_progressive_meshes(const std::filesystem::path& folder) {
   done = put(folder / "planet",
              progressive(planet({{.triangles = 80}, 0.12f, false}), Placement::kKept, 10)) &&
          done;
+  done = put(folder.parent_path() / "deformation" / "moving",
+             encode_deformation(build_progressive_mesh(simplify(moving())->detailed))) &&
+         done;
   return put(folder / "all", progressive(with_everything(), Placement::kKept, 0)) && done;
 }
 
@@ -134,6 +168,7 @@ bool put_patch_trees(const std::filesystem::path& folder) {
   bool done = true;
   for (const auto& [name, mesh] :
        {std::pair("sphere", seamed_sphere({.triangles = 200})), std::pair("all", with_everything()),
+        std::pair("moving", moving()),
         std::pair("planet", planet({{.triangles = 320}, 0.12f, false})),
         std::pair("plane", plane({.triangles = 72}))}) {
     PatchTreeOptions options;
@@ -150,7 +185,7 @@ bool put_strips(const std::filesystem::path& folder) {
   for (const auto& [name, mesh] :
        {std::pair("sphere", seamed_sphere({.triangles = 60})), std::pair("all", with_everything()),
         std::pair("planet", planet({{.triangles = 80}, 0.12f, false})),
-        std::pair("plane", plane({.triangles = 18}))}) {
+        std::pair("plane", plane({.triangles = 18})), std::pair("moving", moving())}) {
     const DetailedMesh detailed = simplify(mesh)->detailed;
     const TriangleStrips strips = stripify(detailed.mesh);
     done = put(folder / "mts" / name, encode_mts(build_mts(detailed, strips))) && done;
@@ -190,7 +225,8 @@ int main(int argc, char** argv) {
   stl.resize(stl.size() + 50);
   bool done = true;
   for (const auto& [name, mesh] :
-       {std::pair("plain", two_triangles()), std::pair("all", with_everything())}) {
+       {std::pair("plain", two_triangles()), std::pair("all", with_everything()),
+        std::pair("moving", moving())}) {
     done = put(folder / "ply" / (std::string(name) + "_ascii"), write_ply(mesh, {.ascii = true})) &&
            done;
     done = put(folder / "ply" / name, write_ply(mesh)) && done;

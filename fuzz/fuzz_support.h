@@ -3,6 +3,7 @@
 
 #include <varifold/base/result.h>
 #include <varifold/io/imported_mesh.h>
+#include <varifold/mesh/rig_pose.h>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -13,6 +14,22 @@ namespace varifold::fuzz {
 /// Stops the program, so that the fuzzer keeps the input, unless the condition holds.
 inline void require(bool condition) {
   if (!condition) std::abort();
+}
+
+/// What moves the mesh is sound: it can be posed at rest and at the ends of its animations.
+inline void check_motion(const TriangleMesh& mesh) {
+  const std::size_t vertices = mesh.positions.size();
+  require(mesh.skin.empty() || mesh.skin.size() == vertices);
+  for (const Pose& pose : mesh.poses) {
+    require(pose.positions.size() == vertices);
+    require(pose.normals.empty() || pose.normals.size() == vertices);
+  }
+  if (mesh.skin.size() > 100000 || mesh.poses.size() > 100) return;  // slow
+  require(posed_mesh(mesh, kNone, 0).positions.size() == vertices);
+  if (!mesh.rig || mesh.rig->animations.empty()) return;
+  const TimeRange range = time_range(mesh.rig->animations[0]);
+  for (const float time : {range.first, 0.5f * range.last, range.last})
+    require(posed_mesh(mesh, 0, time).positions.size() == vertices);
 }
 
 /// A result of a mesh reader is a sound mesh or a message of one line.
@@ -35,6 +52,7 @@ inline void check(const Result<ImportedMesh>& result) {
     covered += range.triangle_count;
   }
   require(mesh.ranges.empty() || covered == mesh.triangle_count());
+  check_motion(mesh);
 }
 
 inline std::span<const std::byte> bytes(const std::uint8_t* data, std::size_t size) {

@@ -52,9 +52,11 @@ class Document {
     }
     if (bytes.size() % 3 != 0) base64.replace(base64.size() - 1, 1, "=");
     if (bytes.size() % 3 == 1) base64.replace(base64.size() - 2, 1, "=");
-    const std::string json = fmt::format(
-        R"({{"asset":{{"version":"2.0"}},"buffers":[{{"byteLength":{},"uri":"data:application/octet-stream;base64,{}"}}],"bufferViews":[{}],"accessors":[{}],{}}})",
-        bytes.size(), base64, views_, accessors_, members);
+    const std::string json =
+        fmt::format(R"({{"asset":{{"version":"2.0"}},"buffers":[{{"byteLength":{},)"
+                    R"("uri":"data:application/octet-stream;base64,{}"}}],)"
+                    R"("bufferViews":[{}],"accessors":[{}],{}}})",
+                    bytes.size(), base64, views_, accessors_, members);
     return read_gltf(as_bytes(json));
   }
 
@@ -381,6 +383,36 @@ TEST(GltfRig, ChannelsOfSomePosesBecomeOneOfAll) {
       const std::vector<float> expected = pose_rig(mesh, 0, time).weights;
       for (std::size_t k = 0; k < 4; ++k) ASSERT_NEAR(weights[k], expected[k], 1e-6f) << time;
     }
+  }
+}
+
+/// Where three.js (0.187.0, GLTFLoader and AnimationMixer) has a vertex.
+struct KnownPlace {
+  const char* name;
+  std::uint32_t animation;
+  float time;
+  std::uint32_t vertex;
+  Vec3 place;
+};
+constexpr KnownPlace kKnownPlaces[] = {
+    {"CesiumMan.glb", 0, 1, 0, {0.108110669f, 0.929300716f, -0.0197255742f}},
+    {"CesiumMan.glb", 0, 1, 1091, {-0.468605673f, 0.185142088f, 0.156710751f}},
+    {"CesiumMan.glb", 0, 1, 3272, {-0.0543616988f, 1.41231664f, 0.0511287472f}},
+    {"CesiumMan.glb", kNone, 0, 1091, {0.0785871460f, 0.0251755919f, 0.123560063f}},
+    {"CesiumMan.glb", kNone, 0, 3272, {-0.130999764f, 1.43705990f, -0.0303956743f}},
+    {"Fox.glb", 2, 0.5f, 0, {3.01368547f, 32.5079193f, -28.3519809f}},
+    {"Fox.glb", 2, 0.5f, 576, {10.6938675f, 48.9714406f, 35.7643891f}},
+    {"Fox.glb", 0, 1.75f, 576, {11.2963690f, 59.0801371f, 35.3526664f}},
+    {"Fox.glb", 0, 1.75f, 1727, {7.60638362f, 53.6670645f, 67.6543636f}}};
+
+TEST(GltfRig, PosesAsAnotherProgramDoes) {
+  if (!test::real_mesh("Fox.glb")) GTEST_SKIP() << "no folder of real meshes here";
+  for (const KnownPlace& known : kKnownPlaces) {
+    VARIFOLD_ASSERT_VALUE(found, read_mesh(*test::real_mesh(known.name)));
+    const TriangleMesh posed = posed_mesh(found.mesh, known.animation, known.time);
+    EXPECT_LT(glm::distance(posed.positions.at(known.vertex), known.place),
+              1e-6f * glm::length(known.place))
+        << known.name << ", vertex " << known.vertex;
   }
 }
 

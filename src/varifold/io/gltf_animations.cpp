@@ -12,8 +12,8 @@ namespace {
 class AnimationReader {
  public:
   AnimationReader(const JsonElement& root, const AnimatedNodes& nodes, BufferStore& buffers,
-                  Budget& budget, FirstFault& faults, Rig& rig)
-      : root_(root), nodes_(nodes), buffers_(buffers), budget_(budget), fault_(faults), rig_(rig) {}
+                  Budget& budget, FirstFault& faults)
+      : root_(root), nodes_(nodes), buffers_(buffers), budget_(budget), fault_(faults) {}
 
   void read() {
     const JsonElement animations = root_.array("animations");
@@ -36,7 +36,7 @@ class AnimationReader {
       read_sampler(element.array("samplers").item(channel.whole("sampler")), *target);
       if (!target->times.empty()) animation.channels.push_back(std::move(*target));
     }
-    if (!animation.channels.empty()) rig_.animations.push_back(std::move(animation));
+    if (!animation.channels.empty()) nodes_.rig.animations.push_back(std::move(animation));
   }
 
   /// Nothing where the channel moves nothing that the mesh has.
@@ -54,7 +54,7 @@ class AnimationReader {
     }
     channel.index = nodes_.rig_node[node];
     // A matrix leaves nothing that could be animated.
-    if (channel.index == kNone || rig_.nodes[channel.index].has_matrix) return std::nullopt;
+    if (channel.index == kNone || nodes_.rig.nodes[channel.index].has_matrix) return std::nullopt;
     if (path == "translation") return channel;
     channel.target = ChannelTarget::kScale;
     if (path == "scale") return channel;
@@ -113,15 +113,14 @@ class AnimationReader {
   BufferStore& buffers_;
   Budget& budget_;
   FirstFault& fault_;
-  Rig& rig_;
   std::size_t dropped_channels_ = 0;
 };
 
 }  // namespace
 
 void read_animations(const JsonElement& root, const AnimatedNodes& nodes, BufferStore& buffers,
-                     Budget& budget, FirstFault& faults, Rig& rig, ImportedMesh& imported) {
-  AnimationReader reader(root, nodes, buffers, budget, faults, rig);
+                     Budget& budget, FirstFault& faults, ImportedMesh& imported) {
+  AnimationReader reader(root, nodes, buffers, budget, faults);
   reader.read();
   warn_count(imported, reader.dropped_channels(),
              "channels of animations move nothing of the mesh, and were dropped");

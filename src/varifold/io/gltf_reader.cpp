@@ -228,8 +228,8 @@ class GltfReader {
   void add_rig() {
     Rig rig = rig_->take();
     rig.pose_weights = vertices_.targets().weights();
-    const gltf::AnimatedNodes nodes{rig_->rig_node_of(), poses_of_node_};
-    gltf::read_animations(root_, nodes, buffers_, budget_, fault_, rig, imported_);
+    const gltf::AnimatedNodes nodes{rig, rig_->rig_node_of(), poses_of_node_};
+    gltf::read_animations(root_, nodes, buffers_, budget_, fault_, imported_);
     if (!rig.joints.empty() || !rig.pose_weights.empty() || !rig.animations.empty())
       imported_.mesh.rig = std::make_shared<const Rig>(std::move(rig));
   }

@@ -89,7 +89,10 @@ void RigBuilder::find_moving_nodes() {
 
 std::uint16_t RigBuilder::add_joint(const BoundJoint& joint) {
   const std::size_t at = joint.place == kNone ? scene_.nodes.size() : joint.place;
-  for (const std::uint16_t known : joints_at_[at])
+  // Skins share few matrices of a node; a file that has many would make this quadratic.
+  constexpr std::size_t kMostCompared = 64;
+  const std::span known_here(joints_at_[at]);
+  for (const std::uint16_t known : known_here.first(std::min(known_here.size(), kMostCompared)))
     if (joints_[known].inverse_bind == joint.inverse_bind) return known;
   constexpr std::size_t kMostJoints = 65536;
   if (joints_.size() >= kMostJoints) {
@@ -155,12 +158,19 @@ Mover RigBuilder::mover_of(std::uint32_t place) const {
   return Mover(moves_[place] && !inverse(transform) ? glm::dmat4(1) : transform);
 }
 
+/// A root of the scene that the writer of this project has put there.
+bool RigBuilder::is_frame(std::uint32_t place) const {
+  const SceneNode& node = scene_.nodes[place];
+  return node.parent == kNone && !node.has_mesh && !moves_[place] &&
+         node.transform == glm::dmat4(1) &&
+         root_.array("nodes").item(node.index).object_if("extras").has(kFrameMark);
+}
+
 /// In the order of the file where parents come first in it, else depth first.
 std::vector<std::uint32_t> RigBuilder::needed_places() const {
   std::vector<bool> is_needed(scene_.nodes.size(), false);
   for (const BoundJoint& joint : joints_)
-    for (std::uint32_t at = joint.place; at != kNone && !is_needed[at];
-         at = scene_.nodes[at].parent)
+    for (std::uint32_t at = joint.place; at != kNone && !is_needed[at]; at = parent_of(at))
       is_needed[at] = true;
   std::vector<std::uint32_t> places;
   bool is_file_ordered = true;
@@ -168,7 +178,8 @@ std::vector<std::uint32_t> RigBuilder::needed_places() const {
     if (!is_needed[place]) continue;
     places.push_back(place);
     const SceneNode& node = scene_.nodes[place];
-    if (node.parent != kNone && scene_.nodes[node.parent].index > node.index)
+    if (const std::uint32_t parent = parent_of(place);
+        parent != kNone && scene_.nodes[parent].index > node.index)
       is_file_ordered = false;
   }
   if (is_file_ordered)
@@ -184,7 +195,8 @@ Rig RigBuilder::take() {
   for (const std::uint32_t place : needed_places()) {
     const SceneNode& node = scene_.nodes[place];
     RigNode rig_node = read_node(root_.array("nodes").item(node.index));
-    if (node.parent != kNone) rig_node.parent = rig_node_of_[scene_.nodes[node.parent].index];
+    if (const std::uint32_t parent = parent_of(place); parent != kNone)
+      rig_node.parent = rig_node_of_[scene_.nodes[parent].index];
     rig_node_of_[node.index] = static_cast<std::uint32_t>(rig.nodes.size());
     rig.nodes.push_back(std::move(rig_node));
   }

@@ -56,6 +56,12 @@ class RigBuilder {
   void find_moving_nodes();
   std::uint16_t add_joint(const BoundJoint& joint);
   void read_skin(std::uint64_t skin);
+  [[nodiscard]] bool is_frame(std::uint32_t place) const;
+  /// The node above in the rig.
+  [[nodiscard]] std::uint32_t parent_of(std::uint32_t place) const {
+    const std::uint32_t parent = scene_.nodes[place].parent;
+    return parent != kNone && is_frame(parent) ? kNone : parent;
+  }
   [[nodiscard]] std::vector<std::uint32_t> needed_places() const;
 
   JsonElement root_;

@@ -1,5 +1,6 @@
 #include <varifold/io/gltf_rig_writer.h>
 
+#include <varifold/io/gltf_scene.h>
 #include <varifold/io/pose_channels.h>
 #include <varifold/mesh/rig.h>
 #include <algorithm>
@@ -47,6 +48,7 @@ class SceneWriter {
         nodes_[parent]["children"].push_back(i);
     Json mesh_node = {{"mesh", 0}};
     if (mesh_.has_skin() && !rig_.joints.empty()) mesh_node["skin"] = add_skin();
+    if (mesh_node.contains("skin")) add_frame();
     mesh_place_ = nodes_.size();
     roots_.push_back(mesh_place_);
     nodes_.push_back(std::move(mesh_node));
@@ -78,6 +80,14 @@ class SceneWriter {
     output_.document["skins"] =
         Json::array({{{"inverseBindMatrices", accessor}, {"joints", std::move(joints)}}});
     return 0;
+  }
+
+  /// glTF wants the joints of a skin to have one root; readers of ours take it off again.
+  void add_frame() {
+    if (roots_.size() < 2) return;
+    const std::size_t frame = nodes_.size();
+    nodes_.push_back({{"children", roots_}, {"extras", {{kFrameMark, true}}}});
+    roots_ = Json::array({frame});
   }
 
   void add_pose_names() {

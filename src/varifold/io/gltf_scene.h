@@ -18,6 +18,9 @@ struct SceneNode {
   glm::dmat4 transform{1};  ///< from the node to the world, at rest
 };
 
+/// In the extras of a node that holds the roots of a rig together and does nothing else, `true`.
+inline constexpr const char* kFrameMark = "varifold_frame";
+
 /// All nodes below the default scene, else the first one, else the nodes without a parent, in
 /// depth-first order; where there are no nodes, one without an index for each mesh.
 struct Scene {

@@ -61,10 +61,10 @@ void TargetCollector::read(const JsonElement& primitive, const PoseRange& range,
     positions_.push_back({pose, first_vertex, std::move(offsets)});
     // Without normals at rest there is nothing to turn.
     if (turns.empty() || normals.empty()) continue;
-    offsets.resize(count);
+    std::vector<Vec3> changes(count);
     for (std::size_t v = 0; v < count; ++v)
-      offsets[v] = mover.normal_offset(vector_at(normals, v), vector_at(turns, v));
-    normals_.push_back({pose, first_vertex, std::move(offsets)});
+      changes[v] = mover.normal_offset(vector_at(normals, v), vector_at(turns, v));
+    normals_.push_back({pose, first_vertex, std::move(changes)});
   }
 }
 
