@@ -10,6 +10,7 @@
 #include <varifold/io/model_file.h>
 #include <varifold/io/output_file.h>
 #include <varifold/models/lodstrips/build.h>
+#include <varifold/models/lodstrips/frame_build.h>
 #include <varifold/models/mts/build.h>
 #include <varifold/models/patch_tree/build.h>
 #include <varifold/models/pm/build.h>
@@ -173,6 +174,13 @@ StripFramework built(const DetailedMesh& detailed) {
 template <>
 LodStrips built(const DetailedMesh& detailed) {
   return build_lod_strips(detailed);
+}
+
+template <>
+FrameStrips built(const DetailedMesh& detailed) {
+  auto built = build_frame_strips(detailed.mesh);
+  EXPECT_TRUE(built);
+  return built ? std::move(built->model) : FrameStrips();
 }
 
 template <>

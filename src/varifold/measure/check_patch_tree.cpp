@@ -5,8 +5,10 @@
 #include <varifold/measure/legal_fronts.h>
 #include <varifold/measure/patch_borders.h>
 #include <varifold/measure/seeded_front.h>
+#include <varifold/measure/shape_checker.h>
 #include <varifold/measure/surface_counts.h>
 #include <varifold/measure/surface_distance.h>
+#include <varifold/mesh/pose_blend.h>
 #include <varifold/models/patch_tree/extract.h>
 #include <varifold/models/patch_tree/instance.h>
 #include <algorithm>
@@ -236,12 +238,39 @@ void PatchTreeChecker::add_notes() {
   add("lost_component", lost_component_, "", Severity::kNote);
 }
 
+// In a blend places are rounded, and the mesh may fold by itself.
+bool is_of_orientation(const Fault& fault) {
+  return fault.kind == "turned_triangle" || fault.kind == "outside_cone";
+}
+
+std::shared_ptr<const PatchTree> blended(const PatchTree& tree, const std::vector<float>& weights) {
+  PatchTreeData data = tree.data();
+  data.vertices.positions = blend_poses(data.vertices, weights).positions;
+  data.vertices.poses.clear();
+  return std::make_shared<const PatchTree>(std::move(data));
+}
+
 }  // namespace
 
 Result<ModelCheck> check_patch_tree(const std::shared_ptr<const PatchTree>& tree,
                                     const ModelCheckOptions& options) {
   if (tree->node_count() == 0) return ModelCheck{};
-  return PatchTreeChecker(tree, options).run();
+  auto check = PatchTreeChecker(tree, options).run();
+  if (!check) return check;
+  // In every pose and in blends it is a tree of another shape, with the same bounds and errors.
+  const std::size_t poses = tree->attributes().poses.size();
+  const auto all_weights = check::checked_weights(poses);
+  for (std::size_t i = 0; i < all_weights.size(); ++i) {
+    const auto in_pose = PatchTreeChecker(blended(*tree, all_weights[i]), options).run();
+    if (!in_pose) return in_pose;
+    for (Fault fault : in_pose->faults) {
+      if (fault.severity == Severity::kNote || (i >= poses && is_of_orientation(fault))) continue;
+      fault.kind = "pose_" + fault.kind;
+      fault.where = (i < poses ? "pose " + std::to_string(i + 1) : "a blend") + ": " + fault.where;
+      check->faults.push_back(std::move(fault));
+    }
+  }
+  return check;
 }
 
 }  // namespace varifold

@@ -27,7 +27,9 @@ namespace varifold {
 /// - front_over_budget: more triangles than asked for, and than level 0 has
 /// - front_illegal: patches that share a vertex and differ by more than one level
 /// - error_not_monotone, error_exceeded: as of other models
-/// Note: lost_component, levels with fewer components.
+/// A tree with poses is looked at anew in each pose and, but for turned_triangle and outside_cone,
+/// in blends; faults have pose_ before their names. Note: lost_component, levels with fewer
+/// components.
 ///
 /// The tree must be consistent, as from a build or a decoder. O(n log n) a front. Error:
 /// kCancelled.

@@ -1,6 +1,5 @@
 #include <varifold/models/common/extract_level.h>
 
-#include <varifold/mesh/vertex_arrays.h>
 #include <algorithm>
 #include <vector>
 
@@ -37,9 +36,11 @@ TriangleMesh extract_level(const TriangleMesh& attributes, std::uint32_t vertex_
   const auto prefix = [&](const auto& from, auto& to) {
     if (!from.empty()) to.assign(from.begin(), from.begin() + vertex_count);
   };
-  copy_pose_names(attributes, mesh);
+  mesh.rig = attributes.rig;
+  mesh.poses.resize(list.poses.size());
   prefix(list.skin, mesh.skin);
   for (std::size_t i = 0; i < list.poses.size(); ++i) {
+    mesh.poses[i].name = list.poses[i].name;
     prefix(list.poses[i].positions, mesh.poses[i].positions);
     prefix(list.poses[i].normals, mesh.poses[i].normals);
   }

@@ -8,8 +8,8 @@
 namespace varifold {
 
 /// The triangles of a draw list, those of strips without the degenerate ones, as a mesh whose
-/// vertices are the first `vertex_count` of the list. Materials, images, the rig and the
-/// names of poses are those of `attributes`; ranges are sorted by material.
+/// vertices are the first `vertex_count` of the list. Materials, images and the rig are
+/// those of `attributes`; ranges are sorted by material.
 /// O(vertices + indices).
 [[nodiscard]] TriangleMesh extract_level(const TriangleMesh& attributes, std::uint32_t vertex_count,
                                          const DrawList& list);

@@ -1,6 +1,7 @@
 #include <varifold/models/lodstrips/frame_strips.h>
 
 #include <varifold/mesh/vertex_arrays.h>
+#include <varifold/mesh/weld.h>
 #include <varifold/models/common/strip_filter.h>
 #include <varifold/models/lodstrips/strip_bytes.h>
 #include <varifold/view/draw_vertices.h>
@@ -31,7 +32,10 @@ std::uint32_t least(const FrameStripsData& data, const Ask& ask) {
 
 }  // namespace
 
-FrameStrips::FrameStrips(FrameStripsData data) : data_(std::move(data)) { data_.mesh.indices = {}; }
+FrameStrips::FrameStrips(FrameStripsData data) : data_(std::move(data)) {
+  data_.mesh.indices = {};
+  if (may_have_seams(data_.mesh)) point_of_ = weld_points(data_.mesh).class_of;
+}
 
 std::uint32_t FrameStrips::frame_for(std::span<const float> weights) const {
   const auto weight = [](const auto& all, std::size_t i) { return i < all.size() ? all[i] : 0.0f; };
@@ -89,7 +93,8 @@ std::size_t FrameStrips::sequence_bytes() const {
 }
 
 std::size_t FrameStrips::bytes() const {
-  std::size_t sum = vertex_bytes(data_.mesh) + strip_bytes(data_.strips) + sequence_bytes();
+  std::size_t sum = vertex_bytes(data_.mesh) + strip_bytes(data_.strips) + sequence_bytes() +
+                    point_of_.size() * sizeof(std::uint32_t);
   for (const StripFrame& frame : data_.frames)
     sum += sizeof frame + frame.weights.size() * sizeof(float);
   return sum;
@@ -98,11 +103,14 @@ std::size_t FrameStrips::bytes() const {
 FrameStripsInstance::FrameStripsInstance(std::shared_ptr<const FrameStrips> model)
     : model_(std::move(model)), shown_(model_->attributes().vertex_count()) {
   const TriangleStrips& strips = model_->data().strips;
-  indices_.resize(strips.indices.size() + strips.count());
+  // With seams an index may begin a piece: a restart, a repetition and what the last piece has,
+  // too.
+  indices_.resize((model_->point_of().empty() ? 1 : 5) * strips.indices.size() + strips.count());
   std::size_t longest = 0;
   for (std::uint32_t s = 0; s < strips.count(); ++s)
     longest = std::max(longest, strips.strip(s).size());
   present_.resize(longest);
+  piece_.reserve(longest + 1);
   ranges_.reserve(std::max<std::size_t>(1, model_->attributes().ranges.size()));
 }
 
@@ -135,31 +143,69 @@ void FrameStripsInstance::find_shown() {
     shown_[sequence.vertex[i]] = shown_[sequence.vertex[targets[i]]];
 }
 
+// Appends a strip to the present range, without its degenerate triangles.
+void FrameStripsInstance::append(std::span<const std::uint32_t> strip) {
+  DrawRange& range = ranges_.back();
+  std::uint32_t end = range.first_index + range.index_count;
+  // Behind a strip of the same range stands a restart.
+  const bool follows = range.index_count > 0;
+  const std::uint32_t length = filter_strip(strip, indices_.data() + end + (follows ? 1 : 0));
+  if (length == 0) return;
+  if (follows) indices_[end++] = kStripRestart;
+  range.index_count = end + length - range.first_index;
+}
+
+// Where corners at one point have different vertices, the triangle is none, too: the strip is cut
+// there. A piece that begins with a turned triangle repeats its first index.
+void FrameStripsInstance::append_pieces(std::size_t size) {
+  const std::vector<std::uint32_t>& point_of = model_->point_of();
+  const auto is_sliver = [&](std::size_t i) {
+    for (const auto& [a, b] : {std::pair{i, i + 1}, std::pair{i + 1, i + 2}, std::pair{i, i + 2}})
+      if (present_[a] != present_[b] && point_of[present_[a]] == point_of[present_[b]]) return true;
+    return false;
+  };
+  std::size_t first = 0;
+  const auto end_piece = [&](std::size_t end) {
+    if (end < first + 3) return;
+    if (first % 2 == 0) return append({present_.data() + first, end - first});
+    piece_.assign(1, present_[first]);
+    piece_.insert(piece_.end(), present_.begin() + static_cast<std::ptrdiff_t>(first),
+                  present_.begin() + static_cast<std::ptrdiff_t>(end));
+    append(piece_);
+  };
+  for (std::size_t i = 0; i + 2 < size; ++i) {
+    if (!is_sliver(i)) continue;
+    end_piece(i + 2);
+    first = i + 1;
+  }
+  end_piece(size);
+}
+
 void FrameStripsInstance::fill() {
   const TriangleStrips& strips = model_->data().strips;
   const std::vector<MaterialRange>& materials = model_->attributes().ranges;
   ranges_.clear();
-  std::uint32_t end = 0;
+  const auto drop_empty = [&] {
+    if (!ranges_.empty() && ranges_.back().index_count == 0) ranges_.pop_back();
+  };
+  const auto end = [&] {
+    return ranges_.empty() ? 0 : ranges_.back().first_index + ranges_.back().index_count;
+  };
   for (std::uint32_t s = 0; s < strips.count(); ++s) {
     const std::uint32_t material = materials.empty() ? 0 : materials[strips.range[s]].material;
     if (ranges_.empty() || ranges_.back().material != material) {
-      if (!ranges_.empty() && ranges_.back().index_count == 0) ranges_.pop_back();
-      ranges_.push_back({end, 0, Primitive::kStrips, material});
+      drop_empty();
+      ranges_.push_back({end(), 0, Primitive::kStrips, material});
     }
     const std::span<const std::uint32_t> strip = strips.strip(s);
     for (std::size_t i = 0; i < strip.size(); ++i) present_[i] = shown_[strip[i]];
-    const std::uint32_t first = end;
-    // Behind a strip of the same range stands a restart.
-    const bool follows = ranges_.back().index_count > 0;
-    std::uint32_t* const out = indices_.data() + first + (follows ? 1 : 0);
-    const std::uint32_t length = filter_strip({present_.data(), strip.size()}, out);
-    if (length == 0) continue;
-    if (follows) indices_[first] = kStripRestart;
-    end = first + (follows ? 1 : 0) + length;
-    ranges_.back().index_count = end - ranges_.back().first_index;
+    if (model_->point_of().empty())
+      append({present_.data(), strip.size()});
+    else
+      append_pieces(strip.size());
   }
-  if (!ranges_.empty() && ranges_.back().index_count == 0) ranges_.pop_back();
-  changed_ = {0, end};
+  drop_empty();
+  changed_ = {0, end()};
 }
 
 DrawList FrameStripsInstance::draw_list() {
@@ -212,7 +258,8 @@ TriangleMesh FrameStripsInstance::extract() const {
 }
 
 std::size_t FrameStripsInstance::bytes() const {
-  return (shown_.size() + indices_.capacity() + present_.size()) * sizeof(std::uint32_t) +
+  return (shown_.size() + indices_.capacity() + present_.size() + piece_.capacity()) *
+             sizeof(std::uint32_t) +
          ranges_.capacity() * sizeof(DrawRange);
 }
 

@@ -79,8 +79,12 @@ class FrameStrips {
   /// Of the sequences alone.
   [[nodiscard]] std::size_t sequence_bytes() const;
 
+  /// Per vertex the point where it is; empty where there is one vertex at a point.
+  [[nodiscard]] const std::vector<std::uint32_t>& point_of() const { return point_of_; }
+
  private:
   FrameStripsData data_;
+  std::vector<std::uint32_t> point_of_;
 };
 
 /// All of the model as bytes; docs/formats/frame_strips.md. O(n).
@@ -120,6 +124,8 @@ class FrameStripsInstance {
  private:
   void find_shown();
   void fill();
+  void append(std::span<const std::uint32_t> strip);
+  void append_pieces(std::size_t size);
 
   std::shared_ptr<const FrameStrips> model_;
   std::uint32_t level_ = 0, frame_ = 0;
@@ -127,6 +133,7 @@ class FrameStripsInstance {
   std::vector<std::uint32_t> shown_;    // per vertex of the mesh: the one that stands for it
   std::vector<std::uint32_t> indices_;  // what is drawn, at the beginning of the room for it
   std::vector<std::uint32_t> present_;  // one strip before it is filtered
+  std::vector<std::uint32_t> piece_;    // a part of it
   std::vector<DrawRange> ranges_;
   ElementRange changed_;  // all that is drawn
 };
