@@ -21,9 +21,12 @@ struct RepairReport {
   std::uint32_t component_triangles = 0;  ///< of the components dropped
   std::uint32_t closed_holes = 0;
   std::uint32_t new_triangles = 0;  ///< that close them
+  std::uint32_t cut_handles = 0;
 
   [[nodiscard]] bool changed() const {
-    return dropped_triangles + cut_edges + split_points + dropped_components + closed_holes > 0;
+    return dropped_triangles + cut_edges + split_points + dropped_components + closed_holes +
+               cut_handles >
+           0;
   }
 };
 
