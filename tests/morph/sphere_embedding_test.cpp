@@ -5,7 +5,6 @@
 #include <varifold/mesh/generators.h>
 #include <varifold/mesh/topology.h>
 #include <varifold/morph/sphere_embedding.h>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 
@@ -32,7 +31,7 @@ Surface welded(const TriangleMesh& mesh) {
   return surface;
 }
 
-// By the half angles of the sides [Oosterom]: other arithmetic than that of the predicate.
+// By the tangent of half the angle, in other arithmetic than that of the predicate.
 long double solid_angle(const SpherePoint& a, const SpherePoint& b, const SpherePoint& c) {
   using V = glm::vec<3, long double>;
   const V p = glm::normalize(V(a.x, a.y, a.z)), q = glm::normalize(V(b.x, b.y, b.z)),
@@ -72,10 +71,7 @@ TEST(SphereEmbedding, RealMeshes) {
     VARIFOLD_REAL_MESH_OR_SKIP(path, name);
     SCOPED_TRACE(name);
     const Surface surface = welded(read_mesh(path)->mesh);
-    const auto start = std::chrono::steady_clock::now();
     const auto points = embed_on_sphere(surface.indices, surface.positions);
-    std::printf("%s %.2f s\n", name,
-                std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
     ASSERT_TRUE(points) << points.error().message;
     expect_embedded(surface, *points);
   }

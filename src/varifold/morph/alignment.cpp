@@ -9,7 +9,7 @@
 namespace varifold {
 namespace {
 
-constexpr std::uint32_t kRotationSamples = 3000;
+constexpr std::uint32_t kRotationSamples = 1200;
 constexpr std::size_t kRefined = 6;
 constexpr std::uint32_t kDirections = 700;
 constexpr std::uint32_t kCubeSide = 48;

@@ -6,15 +6,30 @@
 #include <varifold/morph/tangent_frame.h>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
 
 namespace varifold {
 namespace {
 
-constexpr std::uint32_t kMostRounds = 1000;
-constexpr std::uint32_t kPatience = 60;
+constexpr std::uint32_t kMostRounds = 300;
+constexpr std::uint32_t kPatience = 40;
+constexpr double kLongestStep = 0.1;  // radians
+constexpr double kDragged = 0.01;
 
 double distance_to_goal(const SpherePoint& from, const SpherePoint& to) {
   return from == to ? 0.0 : glm::distance(direction(from), direction(to));
+}
+
+double area_of(const MutableSphereMap& map) {
+  double area = 0;
+  for (std::size_t t = 0; t + 2 < map.indices.size(); t += 3) {
+    const DVec3 a(map.positions[map.indices[t]]), b(map.positions[map.indices[t + 1]]),
+        c(map.positions[map.indices[t + 2]]);
+    area += 0.5 * glm::length(glm::cross(b - a, c - a));
+  }
+  return area;
 }
 
 // As far as the star allows; whole, halves, quarters of the way.
@@ -41,6 +56,45 @@ void drag(const RingMesh& mesh, std::span<SpherePoint> points, const Pin& pin) {
   }
 }
 
+// The whole sphere flows with the pins: each vertex by the means of their ways, weighted by the
+// fourth power of the inverse distance. False, and nothing moves, where a triangle would fold.
+bool flow(const MutableSphereMap& map, std::span<const Pin> pins, double part) {
+  std::vector<SpherePoint> moved(map.points.begin(), map.points.end());
+  for (std::uint32_t v = 0; v < moved.size(); ++v) {
+    const DVec3 point = direction(map.points[v]);
+    DVec3 way(0);
+    double weights = 0;
+    for (const Pin& pin : pins) {
+      const DVec3 from = direction(map.points[pin.vertex]);
+      const DVec3 gap = point - from;
+      const double square = glm::dot(gap, gap) + 1e-12;
+      const double weight = 1 / (square * square);
+      way += weight * (direction(pin.goal) - from);
+      weights += weight;
+    }
+    moved[v] = to_sphere_point(point + part / weights * way);
+  }
+  if (part == 1)
+    for (const Pin& pin : pins) moved[pin.vertex] = pin.goal;
+  for (std::size_t t = 0; t + 2 < map.indices.size(); t += 3)
+    if (orientation(moved[map.indices[t]], moved[map.indices[t + 1]],
+                    moved[map.indices[t + 2]]) <= 0)
+      return false;
+  std::copy(moved.begin(), moved.end(), map.points.begin());
+  return true;
+}
+
+// How far pins are from their goals: the farthest, and all together.
+std::pair<double, double> distances(const MutableSphereMap& map, std::span<const Pin> pins) {
+  double farthest = 0, sum = 0;
+  for (const Pin& pin : pins) {
+    const double left = distance_to_goal(map.points[pin.vertex], pin.goal);
+    sum += left;
+    farthest = std::max(farthest, left);
+  }
+  return {farthest, sum};
+}
+
 }  // namespace
 
 WarpReport drag_to_goals(const MutableSphereMap& map, std::span<const Pin> pins) {
@@ -48,25 +102,27 @@ WarpReport drag_to_goals(const MutableSphereMap& map, std::span<const Pin> pins)
   const auto count = static_cast<std::uint32_t>(map.points.size());
   const RingMesh mesh(map.indices, count);
   StarRelaxation relaxation(mesh, map.positions, map.points);
+  relaxation.set_scale(area_of(map) / (4 * std::numbers::pi));
   std::vector<bool> is_pinned(count, false);
   for (const Pin& pin : pins) is_pinned[pin.vertex] = true;
   double nearest_sum = 1e300;
-  for (std::uint32_t waiting = 0; report.rounds < kMostRounds && waiting < kPatience;) {
-    double sum = 0;
-    report.farthest = 0;
-    for (const Pin& pin : pins) {
-      drag(mesh, map.points, pin);
-      const double left = distance_to_goal(map.points[pin.vertex], pin.goal);
-      sum += left;
-      report.farthest = std::max(report.farthest, left);
-    }
+  for (std::uint32_t waiting = 0; report.rounds < kMostRounds && waiting < kPatience;
+       ++report.rounds) {
+    const auto [farthest, sum] = distances(map, pins);
     if (sum == 0) break;
     waiting = sum < 0.999 * nearest_sum ? 0 : waiting + 1;
     nearest_sum = std::min(nearest_sum, sum);
+    double part = std::min(1.0, kLongestStep / farthest);
+    bool has_flowed = flow(map, pins, part);
+    for (int halving = 0; halving < 6 && !has_flowed; ++halving)
+      has_flowed = flow(map, pins, part *= 0.5);
+    // Alone a vertex gets as far as its star, which takes all the room that flowing needs.
+    if (!has_flowed || farthest < kDragged)
+      for (const Pin& pin : pins) drag(mesh, map.points, pin);
     for (std::uint32_t v = 0; v < count; ++v)
       if (!is_pinned[v]) relaxation.relax(v, 2);
-    ++report.rounds;
   }
+  report.farthest = distances(map, pins).first;
   return report;
 }
 

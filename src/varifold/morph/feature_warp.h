@@ -27,10 +27,10 @@ struct WarpReport {
   std::uint32_t rounds = 0;
 };
 
-/// Drags vertices to their goals, a part of their star at a time, while all others give way by
-/// stretching the surface less. Every triangle stays positive. Ends when all are there, or
-/// when none has come nearer in many rounds: pins of several may bar each other's way. At most
-/// 1,000 rounds of O(n).
+/// Brings vertices to their goals: the whole sphere flows with them in small steps, which are
+/// refused where they fold, and all others are relaxed in between. Every triangle stays positive.
+/// Ends when all are there, or when none has come nearer in many rounds: pins may bar each other's
+/// way. At most 300 rounds of O(n pins).
 [[nodiscard]] WarpReport drag_to_goals(const MutableSphereMap& map, std::span<const Pin> pins);
 
 /// Moves every vertex by up to `reach` radians to a random side, less where its star demands
