@@ -58,12 +58,11 @@ Result<TriangleMesh> read_sphere(const std::string& name, const MorphCommand& co
   const auto some = [](std::uint32_t count, const char* what) {
     return count == 0 ? std::string() : ", " + format_count(count) + " " + what;
   };
-  const std::string list = some(done.dropped_triangles, "triangles dropped") +
-                           some(done.cut_edges, "non-manifold edges cut") +
-                           some(done.split_points, "points split") +
-                           some(done.dropped_components, "components dropped") +
-                           some(done.closed_holes, "holes closed") +
-                           some(done.cut_handles, "handles cut");
+  const std::string list =
+      some(done.dropped_triangles, "triangles dropped") +
+      some(done.cut_edges, "non-manifold edges cut") + some(done.split_points, "points split") +
+      some(done.dropped_components, "components dropped") +
+      some(done.closed_holes, "holes closed") + some(done.cut_handles, "handles cut");
   print_message("varifold: " + path.string() + ": repaired: " + list.substr(2));
   if (has_features)
     print_message("varifold: " + path.string() + ": its vertices have other numbers now");
@@ -163,9 +162,7 @@ void add_morph(CLI::App& app, CommandRunner& runner) {
   command->add_option("a", options->inputs[0], "The shape at rest: closed, without handles")
       ->required()
       ->type_name("A");
-  command->add_option("b", options->inputs[1], "The shape of its pose")
-      ->required()
-      ->type_name("B");
+  command->add_option("b", options->inputs[1], "The shape of its pose")->required()->type_name("B");
   command
       ->add_option("--features", options->features,
                    "A text file: each line a vertex of A and the vertex of B that it becomes")

@@ -2,6 +2,7 @@
 #include <tests/support/meshes.h>
 #include <tests/support/test_files.h>
 #include <varifold/io/mesh_file.h>
+#include <varifold/mesh/generators.h>
 #include <varifold/mesh/topology.h>
 #include <varifold/morph/repair_sphere.h>
 #include <varifold/morph/sphere_surface.h>
@@ -56,8 +57,31 @@ TEST(RepairSphere, EveryGroupBecomesManifoldOrIsRefused) {
   }
 }
 
+TEST(RepairSphere, CutsSmallHandlesAlone) {
+  GeneratorOptions shape;
+  shape.triangles = 1000;
+  const TriangleMesh ring = torus(shape);
+  const auto kept = repair_to_sphere(ring);
+  ASSERT_TRUE(kept);
+  EXPECT_EQ(kept->report.cut_handles, 0u);
+  EXPECT_FALSE(as_sphere(kept->mesh, "m"));
+  RepairOptions all;
+  all.max_handle = 10;
+  // A lattice with many handles.
+  const TriangleMesh sponge =
+      test::voxels(3, [](std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+        return (x == 1) + (y == 1) + (z == 1) < 2;
+      });
+  for (const auto& [mesh, handles] : {std::pair(ring, 1u), std::pair(sponge, 5u)}) {
+    const auto cut = repair_to_sphere(mesh, all);
+    ASSERT_TRUE(cut);
+    EXPECT_EQ(cut->report.cut_handles, handles);
+    EXPECT_TRUE(as_sphere(cut->mesh, "m"));
+  }
+}
+
 TEST(RepairSphere, RealMeshes) {
-  for (const char* name : {"bunny.ply", "cow.obj"}) {
+  for (const char* name : {"bunny.ply", "cow.obj", "camel.ply"}) {
     VARIFOLD_REAL_MESH_OR_SKIP(path, name);
     const auto repaired = repair_to_sphere(read_mesh(path)->mesh);
     ASSERT_TRUE(repaired) << name;

@@ -45,9 +45,8 @@ void expect_embedded(const Surface& surface, const std::vector<SpherePoint>& poi
   EXPECT_EQ(count_flipped_on_sphere(surface.indices, points), 0u);
   long double area = 0;
   for (std::size_t t = 0; t < surface.indices.size(); t += 3) {
-    const long double angle =
-        solid_angle(points[surface.indices[t]], points[surface.indices[t + 1]],
-                    points[surface.indices[t + 2]]);
+    const long double angle = solid_angle(
+        points[surface.indices[t]], points[surface.indices[t + 1]], points[surface.indices[t + 2]]);
     EXPECT_GT(angle, 0) << "triangle " << t / 3;
     area += angle;
   }

@@ -41,8 +41,7 @@ int slow_sign(const SpherePoint& a, const SpherePoint& b, const SpherePoint& c) 
 }
 
 SpherePoint random_point(Random& random) {
-  return to_sphere_point(
-      {random.uniform() - 0.5, random.uniform() - 0.5, random.uniform() - 0.5});
+  return to_sphere_point({random.uniform() - 0.5, random.uniform() - 0.5, random.uniform() - 0.5});
 }
 
 TEST(SpherePoint, SignsAreExactNearGreatCircles) {

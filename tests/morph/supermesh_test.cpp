@@ -61,7 +61,8 @@ TriangleMesh spiked(std::uint32_t triangles, std::uint64_t seed) {
   mesh.normals.clear();
   Random random(seed);
   for (int i = 0; i < 12; ++i)
-    mesh.positions[random.below(mesh.vertex_count())] *= 1 + 9 * static_cast<float>(random.uniform());
+    mesh.positions[random.below(mesh.vertex_count())] *=
+        1 + 9 * static_cast<float>(random.uniform());
   return mesh;
 }
 
@@ -82,9 +83,8 @@ TEST(Supermesh, OverlaysMeetBothInputsExactly) {
       expect_supermesh(*super, a.mesh, b.mesh, 2e-6);
       // Euler: every crossing is a vertex of four edges.
       const SupermeshReport& told = super->report;
-      EXPECT_EQ(told.overlay_triangles, 2 * (told.input_vertices[0] + told.input_vertices[1] +
-                                             told.crossings) -
-                                            4);
+      EXPECT_EQ(told.overlay_triangles,
+                2 * (told.input_vertices[0] + told.input_vertices[1] + told.crossings) - 4);
     }
 }
 
@@ -106,8 +106,7 @@ TEST(Supermesh, ReductionStaysWithinItsTolerance) {
       DistanceOptions sampling;
       sampling.samples = 20'000;
       sampling.vertices = true;
-      const auto distance =
-          surface_distance(shape_of(super->mesh, moved), moved ? b : a, sampling);
+      const auto distance = surface_distance(shape_of(super->mesh, moved), moved ? b : a, sampling);
       EXPECT_LE(distance.hausdorff, (tolerance + 1e-6) * distance.diagonal);
       EXPECT_GT(distance.hausdorff, 0);
     }
@@ -157,9 +156,9 @@ TEST(Supermesh, FeaturesMeet) {
     // A vertex that is at the one feature and goes to the other.
     float nearest = 1e9f;
     for (std::uint32_t v = 0; v < super->mesh.vertex_count(); ++v)
-      nearest = std::min(nearest, glm::distance(super->mesh.positions[v], a.positions[in_a]) +
-                                      glm::distance(super->mesh.poses[0].positions[v],
-                                                    b.positions[in_b]));
+      nearest = std::min(nearest,
+                         glm::distance(super->mesh.positions[v], a.positions[in_a]) +
+                             glm::distance(super->mesh.poses[0].positions[v], b.positions[in_b]));
     EXPECT_LT(nearest, 1e-5f);
   }
   options.features = {{3, 500}, {3, 77}};
@@ -182,8 +181,8 @@ TEST(Supermesh, CarriesSeamsAndMaterials) {
   // North stays north: no triangle of a material lies on the other side of the equator.
   const std::vector<std::uint32_t> materials = triangle_materials(mesh);
   const std::uint32_t top = triangle_materials(a)[0];
-  const float side = a.positions[a.indices[0]].y + a.positions[a.indices[1]].y +
-                     a.positions[a.indices[2]].y;
+  const float side =
+      a.positions[a.indices[0]].y + a.positions[a.indices[1]].y + a.positions[a.indices[2]].y;
   for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
     float height = 0;
     for (std::uint32_t k = 0; k < 3; ++k) height += mesh.positions[mesh.indices[3 * t + k]].y;
@@ -202,8 +201,9 @@ TEST(Supermesh, RefusesWhatIsNoSphere) {
   const struct {
     TriangleMesh mesh;
     const char* message;
-  } cases[] = {{torus(shape), "genus 1"}, {open, "1 hole"},     {two, "2 components"},
-               {plane(shape), "1 hole"},  {bad, "index_out_of_range"}, {{}, "no triangles"}};
+  } cases[] = {{torus(shape), "genus 1"},   {open, "1 hole"},
+               {two, "2 components"},       {plane(shape), "1 hole"},
+               {bad, "index_out_of_range"}, {{}, "no triangles"}};
   for (const auto& refused : cases) {
     for (const bool is_first : {true, false}) {
       const auto super =

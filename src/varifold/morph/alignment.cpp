@@ -21,10 +21,9 @@ struct Quaternion {
 };
 
 Quaternion product(const Quaternion& p, const Quaternion& q) {
-  return {p.w * q.w - p.x * q.x - p.y * q.y - p.z * q.z,
-          p.w * q.x + p.x * q.w + p.y * q.z - p.z * q.y,
-          p.w * q.y - p.x * q.z + p.y * q.w + p.z * q.x,
-          p.w * q.z + p.x * q.y - p.y * q.x + p.z * q.w};
+  return {
+      p.w * q.w - p.x * q.x - p.y * q.y - p.z * q.z, p.w * q.x + p.x * q.w + p.y * q.z - p.z * q.y,
+      p.w * q.y - p.x * q.z + p.y * q.w + p.z * q.x, p.w * q.z + p.x * q.y - p.y * q.x + p.z * q.w};
 }
 
 Quaternion normalized(const Quaternion& q) {
@@ -146,9 +145,7 @@ class CubeTable {
     ShapeSampler sampler(map);
     for (std::uint32_t i = 0; i < texels_.size(); ++i) {
       const std::uint32_t face = i / (kCubeSide * kCubeSide);
-      const auto coordinate = [](std::uint32_t texel) {
-        return (2.0 * texel + 1) / kCubeSide - 1;
-      };
+      const auto coordinate = [](std::uint32_t texel) { return (2.0 * texel + 1) / kCubeSide - 1; };
       DVec3 way(face < 3 ? 1.0 : -1.0);
       const int axis = static_cast<int>(face % 3);
       way[(axis + 1) % 3] = coordinate(i / kCubeSide % kCubeSide);
@@ -245,7 +242,8 @@ std::vector<SpherePoint> rotated_points(std::span<const SpherePoint> points,
                                         const Rotation& rotation) {
   std::vector<SpherePoint> result;
   result.reserve(points.size());
-  for (const SpherePoint& p : points) result.push_back(to_sphere_point(rotated(rotation, direction(p))));
+  for (const SpherePoint& p : points)
+    result.push_back(to_sphere_point(rotated(rotation, direction(p))));
   return result;
 }
 

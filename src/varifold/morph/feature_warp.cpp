@@ -77,8 +77,8 @@ bool flow(const MutableSphereMap& map, std::span<const Pin> pins, double part) {
   if (part == 1)
     for (const Pin& pin : pins) moved[pin.vertex] = pin.goal;
   for (std::size_t t = 0; t + 2 < map.indices.size(); t += 3)
-    if (orientation(moved[map.indices[t]], moved[map.indices[t + 1]],
-                    moved[map.indices[t + 2]]) <= 0)
+    if (orientation(moved[map.indices[t]], moved[map.indices[t + 1]], moved[map.indices[t + 2]]) <=
+        0)
       return false;
   std::copy(moved.begin(), moved.end(), map.points.begin());
   return true;

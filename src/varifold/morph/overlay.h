@@ -20,7 +20,7 @@ struct Crossing {
 
 /// All crossings, and the triangle of the other one that each vertex lies in.
 struct Crossings {
-  std::vector<Crossing> crossings;  ///< by edges of b, along each
+  std::vector<Crossing> crossings;              ///< by edges of b, along each
   std::vector<std::uint32_t> first_on_a, on_a;  ///< per edge of a (rows), along it: crossings
   std::vector<std::uint32_t> first_on_b;        ///< per edge of b, its first crossing
   std::vector<std::uint32_t> triangle_in_b;     ///< per vertex of a
@@ -38,8 +38,8 @@ struct Crossings {
 /// A convex piece of the sphere within one triangle of each. Nodes are vertices of a, then those
 /// of b, then crossings.
 struct OverlayCells {
-  std::vector<std::uint32_t> first_node;  ///< per cell, into `nodes`; size cells + 1
-  std::vector<std::uint32_t> nodes;       ///< counter-clockwise seen from outside
+  std::vector<std::uint32_t> first_node;              ///< per cell, into `nodes`; size cells + 1
+  std::vector<std::uint32_t> nodes;                   ///< counter-clockwise seen from outside
   std::vector<std::uint32_t> triangle_a, triangle_b;  ///< per cell
 
   [[nodiscard]] std::uint32_t cell_count() const {

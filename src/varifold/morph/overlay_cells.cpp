@@ -9,8 +9,8 @@ struct DartRows {
   const SphereTriangulation& map;
   std::vector<std::uint32_t> first;  ///< per half-edge its first dart
 
-  DartRows(const SphereTriangulation& triangulation, const std::vector<std::uint32_t>& first_on_edge,
-           std::uint32_t first_dart)
+  DartRows(const SphereTriangulation& triangulation,
+           const std::vector<std::uint32_t>& first_on_edge, std::uint32_t first_dart)
       : map(triangulation) {
     first.reserve(map.indices.size() + 1);
     first.push_back(first_dart);
@@ -69,8 +69,7 @@ class CellTracer {
     const std::uint32_t twin_a = a_.opposite[half_a], twin_b = b_.opposite[half_b];
     const std::uint32_t left_of_b = crossing.is_a_from_right ? half_a : twin_a;
     const std::uint32_t right_of_b = crossing.is_a_from_right ? twin_a : half_a;
-    const std::uint32_t node =
-        static_cast<std::uint32_t>(a_.points.size() + b_.points.size()) + x;
+    const std::uint32_t node = static_cast<std::uint32_t>(a_.points.size() + b_.points.size()) + x;
     const auto link = [&](const DartRows& in, std::uint32_t half_in, std::uint32_t place_in,
                           const DartRows& out, std::uint32_t half_out, std::uint32_t place_out) {
       const std::uint32_t dart = in.dart_after(half_in, place_in) - 1;

@@ -1,5 +1,6 @@
-// Based on: [Parent1992] for the overlay of two maps onto the sphere by walking along edges.
-// Differs: exact signs of whole-numbered directions. Nothing is ever compared along an edge: the
+// Based on: [KentCarlsonParent1992] for the overlay of two maps onto the sphere by walking along
+// edges. Differs: exact signs of whole-numbered directions. Nothing is ever compared along an edge:
+// the
 //   order of crossings along the edges of a comes from walking those over b.
 #include <varifold/base/parallel.h>
 #include <varifold/morph/overlay.h>
@@ -58,7 +59,8 @@ Walks walk_all(const SphereTriangulation& edges, const SphereTriangulation& map,
   std::atomic<bool> is_exact = true;
   parallel_for(threads, pieces, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t piece = begin; piece < end; ++piece) {
-      const std::size_t last = std::min<std::size_t>((piece + 1) * kEdgesAtOnce, edges.edge_count());
+      const std::size_t last =
+          std::min<std::size_t>((piece + 1) * kEdgesAtOnce, edges.edge_count());
       for (std::size_t e = piece * kEdgesAtOnce; e < last; ++e) {
         const std::uint32_t h = edges.edge_half[e], from = edges.from(h);
         const std::size_t before = found[piece].size();

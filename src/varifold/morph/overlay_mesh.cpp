@@ -66,8 +66,7 @@ class SurfaceNodes {
   [[nodiscard]] SurfacePoint on_edge(std::uint32_t index, std::uint32_t triangle) const {
     const Crossing& crossing = crossings_.crossings[index];
     const std::uint32_t half = self_.sphere.edge_half[is_a_ ? crossing.edge_a : crossing.edge_b];
-    const std::uint32_t cut =
-        other_.sphere.edge_half[is_a_ ? crossing.edge_b : crossing.edge_a];
+    const std::uint32_t cut = other_.sphere.edge_half[is_a_ ? crossing.edge_b : crossing.edge_a];
     const SpherePoint &p = other_.sphere.points[other_.sphere.from(cut)],
                       &q = other_.sphere.points[other_.sphere.to(cut)];
     const double at_from = determinant(p, q, self_.sphere.points[self_.sphere.from(half)]);
@@ -103,8 +102,7 @@ class OverlayMesh {
         nodes_a_(a, b, crossings, true),
         nodes_b_(b, a, crossings, false),
         has_both_normals_(a.mesh.has_normals() && b.mesh.has_normals()),
-        first_variant_(a.sphere.points.size() + b.sphere.points.size() +
-                           crossings.crossings.size(),
+        first_variant_(a.sphere.points.size() + b.sphere.points.size() + crossings.crossings.size(),
                        kNone) {}
 
   OverlayTriangles run() {

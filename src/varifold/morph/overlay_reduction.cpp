@@ -2,8 +2,8 @@
 #include <varifold/morph/overlay_star.h>
 #include <varifold/simplify/closest_on_triangle.h>
 #include <algorithm>
-#include <cmath>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -17,8 +17,9 @@ constexpr std::array<float, 7> kPasses{0.01f, 0.1f, 0.3f, 0.6f, 1.0f, 1.0f, 1.0f
 constexpr float kLeastCosine = 0.2588f;  // of the turn of a triangle: 75 degrees
 constexpr float kLeastShape = 2e-3f;     // below it is a needle, which may only get better
 constexpr float kTrustedShape = 1e-3f;   // needles below this have no normal to speak of
-// New edges are looked at in thirds. Between them and the old surface the gap grows up to where they
-// cross an edge of that, and shrinks again: at one of the thirds it is at least this part. Squared.
+// New edges are looked at in thirds. Between them and the old surface the gap grows up to where
+// they cross an edge of that, and shrinks again: at one of the thirds it is at least this part.
+// Squared.
 constexpr float kBetween = 1.5f * 1.5f;
 constexpr std::size_t kLargestStar = 40;
 constexpr std::uint32_t kProgressEvery = 1u << 16;
@@ -137,7 +138,7 @@ class OverlayReduction {
 
   // What a star looks like before.
   struct OldStar {
-    Vec3 normal{0};        // area-weighted, of all of it
+    Vec3 normal{0};  // area-weighted, of all of it
     float worst_shape = 1;
   };
   using Star = std::span<const OverlayStars::Spoke>;
@@ -173,8 +174,7 @@ class OverlayReduction {
       const Vec3& reference = has_normal ? old : old_[s].normal;
       const float cosine = has_normal ? kLeastCosine : 0.0f;
       if (quality > kTrustedShape &&
-          !(glm::dot(normal, reference) >
-            cosine * glm::length(normal) * glm::length(reference)))
+          !(glm::dot(normal, reference) > cosine * glm::length(normal) * glm::length(reference)))
         return -1;
     }
     return worst;

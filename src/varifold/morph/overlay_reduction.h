@@ -41,7 +41,7 @@ struct ReductionReport {
 /// and along the new edges; turns no triangle by more than 75 degrees; and makes no needle
 /// that is worse than those at hand. Vertices are those of the input; unused ones are dropped.
 /// O(n) as a rule, one thread.
-/// Based on: [CohenEtAl1996] for collapsing whatever stays within a tolerance.
+/// Based on: [Cohen1996] for collapsing whatever stays within a tolerance.
 ReductionReport reduce_overlay(OverlayTriangles& overlay, const ReductionOptions& options);
 
 }  // namespace varifold

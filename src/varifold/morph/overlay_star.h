@@ -41,9 +41,9 @@ class OverlayStars {
   [[nodiscard]] std::uint32_t vertex_at(const Spoke& spoke, std::uint32_t point) const;
   [[nodiscard]] bool materials_agree(std::uint32_t target) const;
 
-  std::vector<std::uint32_t> corner_point_;   // kNone in triangles that are gone
+  std::vector<std::uint32_t> corner_point_;  // kNone in triangles that are gone
   std::vector<std::uint32_t> corner_vertex_;
-  std::vector<std::uint32_t> material_of_;    // per triangle; empty where there is one alone
+  std::vector<std::uint32_t> material_of_;  // per triangle; empty where there is one alone
   std::vector<std::uint32_t> first_corner_, next_corner_;
   std::vector<std::uint32_t> mark_;
   std::uint32_t stamp_ = 0;

@@ -1,13 +1,17 @@
 #include <varifold/base/disjoint_sets.h>
 #include <varifold/mesh/normals.h>
+#include <varifold/mesh/topology.h>
 #include <varifold/mesh/validation.h>
 #include <varifold/mesh/vertex_arrays.h>
 #include <varifold/mesh/weld.h>
+#include <varifold/morph/handle_loop.h>
 #include <varifold/morph/repair_sphere.h>
 #include <varifold/morph/sphere_triangulation.h>
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <tuple>
+#include <type_traits>
 #include <utility>
 
 namespace varifold {
@@ -15,19 +19,22 @@ namespace {
 
 // How far copies of a point move towards the middle of their fan, as a part of the way.
 constexpr float kNudge = 1e-3f;
+constexpr int kMostHandles = 64;
 
 class SphereRepair {
  public:
   SphereRepair(const TriangleMesh& mesh, const RepairOptions& options)
       : mesh_(mesh), options_(options), materials_(triangle_materials(mesh)) {}
 
-  Result<RepairedSphere> run() {
+  // With `of_handles` the mesh is closed, and one handle of it is cut.
+  Result<RepairedSphere> run(bool of_handles = false) {
     collect_triangles();
     match_edges();
     keep_largest_component();
     if (corners_.empty()) return fail(ErrorKind::kInvalidInput, "no triangle is left to repair");
     match_edges();
     find_points();
+    if (of_handles) cut_handle();
     make_vertices();
     close_holes();
     split_double_edges();
@@ -106,8 +113,8 @@ class SphereRepair {
     std::vector<std::uint32_t> around;
     for (std::size_t i = 0, end = 0; i < ends.size(); i = end) {
       around.clear();
-      for (end = i; end < ends.size() && ends[end].low == ends[i].low &&
-                    ends[end].high == ends[i].high;
+      for (end = i;
+           end < ends.size() && ends[end].low == ends[i].low && ends[end].high == ends[i].high;
            ++end)
         around.push_back(ends[end].half_edge);
       if (around.size() > 2) ++result_.report.cut_edges;
@@ -144,8 +151,8 @@ class SphereRepair {
       if (opposite_[h] != kNone) sets.unite(h / 3, opposite_[h] / 3);
     std::vector<std::uint32_t> size(count, 0);
     for (std::uint32_t t = 0; t < count; ++t) ++size[sets.find(t)];
-    const auto largest = static_cast<std::uint32_t>(std::max_element(size.begin(), size.end()) -
-                                                    size.begin());
+    const auto largest =
+        static_cast<std::uint32_t>(std::max_element(size.begin(), size.end()) - size.begin());
     RepairReport& report = result_.report;
     for (std::uint32_t t = 0; t < count; ++t)
       if (t != largest && size[t] > 0) {
@@ -157,6 +164,25 @@ class SphereRepair {
     corners_.clear(), material_of_.clear(), source_.clear();
     for (std::uint32_t t = 0; t < count; ++t)
       if (sets.find(t) == largest) add_triangle(triangles[t]);
+  }
+
+  // Opens the surface along a short way around a handle; it is closed on both sides as a hole is.
+  void cut_handle() {
+    const SphereTriangulation surface(point_of_, std::vector<SpherePoint>(corners_.size()));
+    const std::vector<std::uint32_t> loop = find_handle_loop(surface);
+    Box box;
+    for (const std::uint32_t vertex : corners_) box.add(mesh_.positions[vertex]);
+    float length = 0;
+    for (const std::uint32_t h : loop)
+      length +=
+          glm::distance(mesh_.positions[corners_[h]], mesh_.positions[corners_[next_half_edge(h)]]);
+    if (loop.empty() || length > options_.max_handle * box.diagonal()) return;
+    for (const std::uint32_t h : loop) {
+      opposite_[surface.opposite[h]] = kNone;
+      opposite_[h] = kNone;
+    }
+    result_.report.cut_handles = 1;
+    find_points();
   }
 
   // The corners around a fan are one point.
@@ -174,7 +200,8 @@ class SphereRepair {
   // A vertex for each vertex of the mesh and point; copies of a place apart.
   void make_vertices() {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> keys;
-    for (std::uint32_t h = 0; h < corners_.size(); ++h) keys.emplace_back(corners_[h], point_of_[h]);
+    for (std::uint32_t h = 0; h < corners_.size(); ++h)
+      keys.emplace_back(corners_[h], point_of_[h]);
     std::sort(keys.begin(), keys.end());
     keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
     std::vector<std::uint32_t> kept, owner(weld_.class_count, kNone);
@@ -245,8 +272,7 @@ class SphereRepair {
       const std::uint32_t from = vertex(h), to = vertex(next_half_edge(h));
       opposite_[h] = static_cast<std::uint32_t>(mesh.indices.size());
       opposite_.insert(opposite_.end(), {h, kNone, kNone});
-      point_of_.insert(point_of_.end(),
-                       {point_of_[next_half_edge(h)], point_of_[h], kNone});
+      point_of_.insert(point_of_.end(), {point_of_[next_half_edge(h)], point_of_[h], kNone});
       mesh.indices.insert(mesh.indices.end(), {to, from, apex});
       material_of_.push_back(material_of_[h / 3]);
     }
@@ -284,7 +310,8 @@ class SphereRepair {
   // A vertex in the middle of an edge, with the attributes of one side.
   std::uint32_t add_middle(std::uint32_t half_edge, const Vec3& nudge) {
     TriangleMesh& mesh = result_.mesh;
-    const std::uint32_t from = mesh.indices[half_edge], to = mesh.indices[next_half_edge(half_edge)];
+    const std::uint32_t from = mesh.indices[half_edge],
+                        to = mesh.indices[next_half_edge(half_edge)];
     for_each_vertex_array(mesh, [&]<class Value>(std::vector<Value>& values) {
       if constexpr (!std::is_same_v<Value, JointWeights>) {
         if (values.empty()) return;
@@ -342,14 +369,34 @@ class SphereRepair {
 
 }  // namespace
 
+namespace {
+
+// Handles one by one, as long as they are small.
+Result<RepairedSphere> cut_handles(RepairedSphere repaired, const RepairOptions& options) {
+  for (int handle = 0; handle < kMostHandles; ++handle) {
+    const TopologyReport topology =
+        analyze_topology(repaired.mesh, weld_exact(repaired.mesh.positions));
+    if (topology.genus().value_or(0) <= 0) break;
+    auto cut = SphereRepair(repaired.mesh, options).run(true);
+    if (!cut || cut->report.cut_handles == 0) break;
+    ++repaired.report.cut_handles;
+    repaired.report.new_triangles += cut->report.new_triangles;
+    repaired.mesh = std::move(cut->mesh);
+  }
+  return repaired;
+}
+
+}  // namespace
+
 Result<RepairedSphere> repair_to_sphere(const TriangleMesh& mesh, const RepairOptions& options) {
   for (const Fault& fault : validate(mesh))
     if (fault.severity == Severity::kBroken)
       return fail(ErrorKind::kInvalidInput, fault.kind + " " + fault.where);
-  if (mesh.poses.empty() && !mesh.has_skin()) return SphereRepair(mesh, options).run();
   TriangleMesh at_rest = mesh;
   at_rest.poses.clear(), at_rest.skin.clear(), at_rest.rig.reset();
-  return SphereRepair(at_rest, options).run();
+  auto repaired = SphereRepair(at_rest, options).run();
+  if (!repaired) return repaired;
+  return cut_handles(std::move(*repaired), options);
 }
 
 }  // namespace varifold

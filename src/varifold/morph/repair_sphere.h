@@ -10,6 +10,8 @@ namespace varifold {
 struct RepairOptions {
   /// Holes with more edges stay open.
   std::uint32_t max_hole_edges = 1000;
+  /// Handles with a longer way around them are left: a part of the diagonal of the box.
+  float max_handle = 0.05f;
 };
 
 /// What was done; all zero for a sphere.
@@ -42,10 +44,10 @@ struct RepairedSphere {
 /// pairs stay together, and points where several fans touch become one for each, a thousandth
 /// of an edge apart. The component with the most triangles stays; its holes are closed by fans
 /// about their middles. Attributes and materials are kept; those of new vertices are means. Poses
-/// and skins are dropped. Handles are left, and turned triangles: they leave holes, if any.
-/// Errors: kInvalidInput where indices or sizes of arrays are wrong, or nothing is left.
-/// O(n log n).
-/// Based on: [GueziecEtAl2001] for cutting and stitching.
+/// and skins are dropped. Small handles, as touching sheets leave them, are cut and closed like
+/// holes. Greater ones are left; so are turned triangles, as holes at most. Errors: kInvalidInput
+/// where indices or sizes of arrays are wrong, or nothing is left. O(n log n). Based on:
+/// [GueziecTaubinLazarusHorn2001] for cutting and stitching.
 [[nodiscard]] Result<RepairedSphere> repair_to_sphere(const TriangleMesh& mesh,
                                                       const RepairOptions& options = {});
 

@@ -1,4 +1,4 @@
-// Based on: [GarlandHeckbert1997]; [Steinitz1922] for why it ends in a tetrahedron.
+// Based on: [GarlandHeckbert1997]; [SteinitzRademacher1934] for why it ends in a tetrahedron.
 #include <varifold/morph/ring_decimation.h>
 #include <varifold/simplify/quadric.h>
 #include <queue>

@@ -72,8 +72,8 @@ void RingMesh::collapse(std::uint32_t vertex, std::uint32_t target, CollapseReco
       *place = target;
   }
   --live_count_;
-  record.steps.push_back({vertex, static_cast<std::uint32_t>(record.rings.size()),
-                          static_cast<std::uint32_t>(size)});
+  record.steps.push_back(
+      {vertex, static_cast<std::uint32_t>(record.rings.size()), static_cast<std::uint32_t>(size)});
   record.rings.insert(record.rings.end(), ring.begin(), ring.end());
 }
 

@@ -129,7 +129,7 @@ Result<std::vector<SpherePoint>> embed_on_sphere(std::span<const std::uint32_t> 
 }
 
 std::uint32_t count_flipped_on_sphere(std::span<const std::uint32_t> indices,
-                            std::span<const SpherePoint> points) {
+                                      std::span<const SpherePoint> points) {
   std::uint32_t flipped = 0;
   for (std::size_t t = 0; t + 2 < indices.size(); t += 3)
     flipped += orientation(points[indices[t]], points[indices[t + 1]], points[indices[t + 2]]) <= 0;

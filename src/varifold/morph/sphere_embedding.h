@@ -30,6 +30,6 @@ struct SphereEmbeddingOptions {
 
 /// The triangles whose corners are not strictly counter-clockwise on the sphere; exact.
 [[nodiscard]] std::uint32_t count_flipped_on_sphere(std::span<const std::uint32_t> indices,
-                                          std::span<const SpherePoint> points);
+                                                    std::span<const SpherePoint> points);
 
 }  // namespace varifold

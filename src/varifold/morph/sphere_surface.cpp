@@ -6,13 +6,13 @@ namespace varifold {
 namespace {
 
 std::string counted(std::uint64_t count, const std::string& one) {
-  return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
+  return std::to_string(count).append(" ").append(one).append(count == 1 ? "" : "s");
 }
 
 // " (edge 12-15, ...)" of a kind of fault, or nothing.
 std::string place_of(const std::vector<Fault>& faults, const std::string& kind) {
   for (const Fault& fault : faults)
-    if (fault.kind == kind && !fault.where.empty()) return " (" + fault.where + ")";
+    if (fault.kind == kind && !fault.where.empty()) return std::string(" (") + fault.where + ')';
   return "";
 }
 

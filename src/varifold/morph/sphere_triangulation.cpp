@@ -1,4 +1,5 @@
-// Based on: [DevillersPionTeillaud2002], the walk that asks the edges of a triangle in random order.
+// Based on: [DevillersPionTeillaud2002], the walk that asks the edges of a triangle in random
+// order.
 #include <varifold/base/random.h>
 #include <varifold/morph/sphere_triangulation.h>
 #include <algorithm>

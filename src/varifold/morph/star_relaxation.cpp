@@ -66,8 +66,8 @@ double StarRelaxation::distortion_at(const DVec3& point) const {
     const DVec3 v = corners_[i + 1 == corners_.size() ? 0 : i + 1].place - point;
     const DVec3 normal = glm::cross(u, v);
     if (!(glm::dot(normal, point) > 0)) return std::numeric_limits<double>::infinity();
-    const double trace = glm::dot(v, v) * corner.uu - 2 * glm::dot(u, v) * corner.uv +
-                         glm::dot(u, u) * corner.vv;
+    const double trace =
+        glm::dot(v, v) * corner.uu - 2 * glm::dot(u, v) * corner.uv + glm::dot(u, u) * corner.vv;
     const double twice_area = std::sqrt(glm::dot(normal, normal));
     const double growth = 2 * corner.area / (twice_area * scale_);
     sum += trace / twice_area * (growth + 1 / growth);

@@ -47,9 +47,9 @@ class StarRelaxation {
 
  private:
   struct Corner {
-    DVec3 place;           ///< of a neighbour
-    double uu, uv, vv;     ///< the metric of the surface in the triangle that begins there
-    double area;           ///< of it on the surface
+    DVec3 place;        ///< of a neighbour
+    double uu, uv, vv;  ///< the metric of the surface in the triangle that begins there
+    double area;        ///< of it on the surface
   };
   void gather(std::uint32_t vertex);
   [[nodiscard]] double distortion_at(const DVec3& point) const;

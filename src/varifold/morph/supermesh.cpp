@@ -1,5 +1,6 @@
-// Based on: [Ramos2008] section 6.3.1; [Parent1992] for the overlay, [PraunHoppe2003] for the maps.
-// Differs: the thesis names its builder only; here maps have little stretch, signs are exact, and
+// Based on: [Ramos2008] section 6.3.1; [KentCarlsonParent1992] for the overlay, [PraunHoppe2003]
+// for the maps. Differs: the thesis names its builder only; here maps have little stretch, signs
+// are exact, and
 //   the overlay is simplified.
 #include <varifold/base/parallel.h>
 #include <varifold/morph/feature_warp.h>
@@ -44,9 +45,9 @@ class SupermeshBuilder {
 
   Result<Supermesh> run() {
     using Stage = Result<void> (SupermeshBuilder::*)();
-    for (const Stage stage : {&SupermeshBuilder::check, &SupermeshBuilder::embed,
-                              &SupermeshBuilder::align, &SupermeshBuilder::overlay,
-                              &SupermeshBuilder::reduce})
+    for (const Stage stage :
+         {&SupermeshBuilder::check, &SupermeshBuilder::embed, &SupermeshBuilder::align,
+          &SupermeshBuilder::overlay, &SupermeshBuilder::reduce})
       if (auto done = (this->*stage)(); !done) return tl::unexpected(std::move(done.error()));
     if (!report(options_.progress, "supermesh", 1)) return cancelled();
     return std::move(result_);
@@ -55,12 +56,12 @@ class SupermeshBuilder {
  private:
   Result<void> check() {
     for (int i = 0; i < 2; ++i) {
-      auto surface = as_sphere(*meshes_[i], i == 0 ? "first mesh" : "second mesh", options_.threads);
+      auto surface =
+          as_sphere(*meshes_[i], i == 0 ? "first mesh" : "second mesh", options_.threads);
       if (!surface) return tl::unexpected(std::move(surface.error()));
       surfaces_[i] = std::move(*surface);
       result_.report.input_vertices[i] = static_cast<std::uint32_t>(surfaces_[i].positions.size());
-      result_.report.input_triangles[i] =
-          static_cast<std::uint32_t>(surfaces_[i].triangles.size());
+      result_.report.input_triangles[i] = static_cast<std::uint32_t>(surfaces_[i].triangles.size());
     }
     for (const auto& [in_a, in_b] : options_.features) {
       FeaturePoint points{kNone, kNone};
@@ -109,14 +110,13 @@ class SupermeshBuilder {
     const SphereTriangulation a(surfaces_[0].indices, points_[0]),
         b(surfaces_[1].indices, points_[1]);
     const SphereMap map_a{a, surfaces_[0].positions}, map_b{b, surfaces_[1].positions};
-    Rotation rotation = features_.empty() ? align_shapes(map_a, map_b)
-                                          : align_features(map_a, map_b, features_);
+    Rotation rotation =
+        features_.empty() ? align_shapes(map_a, map_b) : align_features(map_a, map_b, features_);
     for (int attempt = 0; attempt < 20; ++attempt) {
       points_[1] = rotated_points(b.points, rotation);
       if (count_flipped_on_sphere(b.indices, points_[1]) == 0) return {};
       const double angle = 1e-9 * (attempt + 1);
-      for (DVec3& row : rotation)
-        row = DVec3(row.x - angle * row.y, row.y + angle * row.x, row.z);
+      for (DVec3& row : rotation) row = DVec3(row.x - angle * row.y, row.y + angle * row.x, row.z);
     }
     return fail(ErrorKind::kFailed, "second mesh: triangles are too small to be turned");
   }

@@ -56,7 +56,7 @@ struct Supermesh {
 /// (repair_sphere.h mends what is simply mended), or a feature is no vertex; kFailed where a
 /// surface needs more than the resolution of the sphere; kCancelled. O(n log n + crossings).
 /// The same bytes for any number of threads.
-/// Source: [Ramos2008] section 6.3.1, after [Parent1992] and [Alexa2000].
+/// Source: [Ramos2008] section 6.3.1, after [KentCarlsonParent1992] and [Alexa2000].
 [[nodiscard]] Result<Supermesh> build_supermesh(const TriangleMesh& a, const TriangleMesh& b,
                                                 const SupermeshOptions& options = {});
 
