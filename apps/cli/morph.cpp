@@ -55,15 +55,19 @@ Result<TriangleMesh> read_sphere(const std::string& name, const MorphCommand& co
   const RepairReport& done = repaired->report;
   // A mesh that needs nothing keeps its numbers, which features refer to.
   if (!done.changed()) return std::move(imported->mesh);
-  const auto some = [](std::uint32_t count, const char* what) {
-    return count == 0 ? std::string() : ", " + format_count(count) + " " + what;
+  std::string list;
+  const auto add = [&](std::uint32_t count, const char* what) {
+    if (count == 0) return;
+    if (!list.empty()) list.append(", ");
+    list.append(format_count(count)).append(" ").append(what);
   };
-  const std::string list =
-      some(done.dropped_triangles, "triangles dropped") +
-      some(done.cut_edges, "non-manifold edges cut") + some(done.split_points, "points split") +
-      some(done.dropped_components, "components dropped") +
-      some(done.closed_holes, "holes closed") + some(done.cut_handles, "handles cut");
-  print_message("varifold: " + path.string() + ": repaired: " + list.substr(2));
+  add(done.dropped_triangles, "triangles dropped");
+  add(done.cut_edges, "non-manifold edges cut");
+  add(done.split_points, "points split");
+  add(done.dropped_components, "components dropped");
+  add(done.closed_holes, "holes closed");
+  add(done.cut_handles, "handles cut");
+  print_message("varifold: " + path.string() + ": repaired: " + list);
   if (has_features)
     print_message("varifold: " + path.string() + ": its vertices have other numbers now");
   return std::move(repaired->mesh);

@@ -4,13 +4,12 @@
 #include <varifold/mesh/validation.h>
 #include <varifold/mesh/vertex_arrays.h>
 #include <varifold/mesh/weld.h>
+#include <varifold/morph/half_edge_matching.h>
 #include <varifold/morph/handle_loop.h>
 #include <varifold/morph/repair_sphere.h>
 #include <varifold/morph/sphere_triangulation.h>
 #include <algorithm>
-#include <array>
 #include <numeric>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -43,44 +42,8 @@ class SphereRepair {
   }
 
  private:
-  std::uint32_t class_at(std::uint32_t half_edge) const {
-    return weld_.class_of[corners_[half_edge]];
-  }
-
-  // Triangles with three places, one for each set of them and side. Two back to back are as a rule
-  // parts of two sheets that touch; without them these would be joined by a handle.
   void collect_triangles() {
-    struct Sorted {
-      std::array<std::uint32_t, 3> classes;
-      std::uint32_t triangle;
-      bool is_even;
-      bool operator<(const Sorted& other) const {
-        return std::tie(classes, triangle) < std::tie(other.classes, other.triangle);
-      }
-    };
-    std::vector<Sorted> sorted;
-    sorted.reserve(mesh_.triangle_count());
-    for (std::uint32_t t = 0; t < mesh_.triangle_count(); ++t) {
-      std::array<std::uint32_t, 3> c{};
-      for (std::uint32_t k = 0; k < 3; ++k)
-        c[k] = weld_.class_of[mesh_.indices[3 * std::size_t{t} + k]];
-      if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) continue;
-      std::rotate(c.begin(), std::min_element(c.begin(), c.end()), c.end());
-      const bool is_even = c[1] < c[2];
-      if (!is_even) std::swap(c[1], c[2]);
-      sorted.push_back({c, t, is_even});
-    }
-    std::sort(sorted.begin(), sorted.end());
-    std::vector<std::uint32_t> kept;
-    for (std::size_t i = 0, end = 0; i < sorted.size(); i = end) {
-      bool has_side[2] = {false, false};
-      for (end = i; end < sorted.size() && sorted[end].classes == sorted[i].classes; ++end) {
-        bool& has = has_side[sorted[end].is_even ? 1 : 0];
-        if (!has) kept.push_back(sorted[end].triangle);
-        has = true;
-      }
-    }
-    std::sort(kept.begin(), kept.end());
+    const std::vector<std::uint32_t> kept = distinct_triangles(mesh_.indices, weld_);
     for (const std::uint32_t t : kept) add_triangle(t);
     result_.report.dropped_triangles =
         mesh_.triangle_count() - static_cast<std::uint32_t>(kept.size());
@@ -93,55 +56,13 @@ class SphereRepair {
     source_.push_back(triangle);
   }
 
-  // Pairs the half-edges of every edge; the smoothest pairs first where there are several.
   void match_edges() {
-    struct EdgeEnd {
-      std::uint32_t low, high, half_edge;
-      bool operator<(const EdgeEnd& other) const {
-        return std::tie(low, high, half_edge) < std::tie(other.low, other.high, other.half_edge);
-      }
-    };
-    std::vector<EdgeEnd> ends;
-    ends.reserve(corners_.size());
-    for (std::uint32_t h = 0; h < corners_.size(); ++h) {
-      const std::uint32_t from = class_at(h), to = class_at(next_half_edge(h));
-      ends.push_back({std::min(from, to), std::max(from, to), h});
-    }
-    std::sort(ends.begin(), ends.end());
-    opposite_.assign(corners_.size(), kNone);
-    result_.report.cut_edges = 0;
-    std::vector<std::uint32_t> around;
-    for (std::size_t i = 0, end = 0; i < ends.size(); i = end) {
-      around.clear();
-      for (end = i;
-           end < ends.size() && ends[end].low == ends[i].low && ends[end].high == ends[i].high;
-           ++end)
-        around.push_back(ends[end].half_edge);
-      if (around.size() > 2) ++result_.report.cut_edges;
-      pair_smoothest(around);
-    }
-  }
-
-  void pair_smoothest(const std::vector<std::uint32_t>& around) {
-    for (;;) {
-      double best = -2;
-      std::pair<std::uint32_t, std::uint32_t> pair{kNone, kNone};
-      for (std::size_t i = 0; i < around.size(); ++i)
-        for (std::size_t j = i + 1; j < around.size(); ++j) {
-          const std::uint32_t g = around[i], h = around[j];
-          if (opposite_[g] != kNone || opposite_[h] != kNone || class_at(g) == class_at(h))
-            continue;
-          const double bend = around.size() == 2 ? 1 : glm::dot(normal(g / 3), normal(h / 3));
-          if (bend > best) best = bend, pair = {g, h};
-        }
-      if (pair.first == kNone) return;
-      opposite_[pair.first] = pair.second;
-      opposite_[pair.second] = pair.first;
-    }
-  }
-
-  [[nodiscard]] Vec3 normal(std::uint32_t triangle) const {
-    return face_normal(mesh_, source_[triangle]);
+    std::vector<std::uint32_t> classes;
+    classes.reserve(corners_.size());
+    for (const std::uint32_t vertex : corners_) classes.push_back(weld_.class_of[vertex]);
+    opposite_ = match_half_edges(
+        classes, [&](std::uint32_t t) { return face_normal(mesh_, source_[t]); },
+        result_.report.cut_edges);
   }
 
   void keep_largest_component() {
