@@ -67,6 +67,7 @@ Result<TriangleMesh> read_sphere(const std::string& name, const MorphCommand& co
   add(done.dropped_components, "components dropped");
   add(done.closed_holes, "holes closed");
   add(done.cut_handles, "handles cut");
+  if (done.turned) list.append(list.empty() ? "" : ", ").append("turned inside out");
   print_message("varifold: " + path.string() + ": repaired: " + list);
   if (has_features)
     print_message("varifold: " + path.string() + ": its vertices have other numbers now");

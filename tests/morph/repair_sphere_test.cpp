@@ -3,6 +3,7 @@
 #include <tests/support/test_files.h>
 #include <varifold/io/mesh_file.h>
 #include <varifold/mesh/generators.h>
+#include <varifold/mesh/normals.h>
 #include <varifold/mesh/topology.h>
 #include <varifold/morph/repair_sphere.h>
 #include <varifold/morph/sphere_surface.h>
@@ -55,6 +56,19 @@ TEST(RepairSphere, EveryGroupBecomesManifoldOrIsRefused) {
     EXPECT_EQ(report.misoriented_edges, 0u);
     EXPECT_EQ(report.components, 1u);
   }
+}
+
+TEST(RepairSphere, TurnsWhatIsInsideOut) {
+  const TriangleMesh outside = test::icosphere(80);
+  TriangleMesh inside = outside;
+  for (std::size_t t = 0; t < inside.indices.size(); t += 3)
+    std::swap(inside.indices[t], inside.indices[t + 2]);
+  const auto repaired = repair_to_sphere(inside);
+  ASSERT_TRUE(repaired);
+  EXPECT_TRUE(repaired->report.turned);
+  EXPECT_GT(signed_volume(repaired->mesh), 0);
+  EXPECT_DOUBLE_EQ(signed_volume(repaired->mesh), -signed_volume(inside));
+  EXPECT_EQ(repaired->mesh.positions, outside.positions);
 }
 
 TEST(RepairSphere, CutsSmallHandlesAlone) {

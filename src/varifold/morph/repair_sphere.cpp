@@ -292,6 +292,12 @@ class SphereRepair {
 
 namespace {
 
+void turn_inside_out(TriangleMesh& mesh) {
+  for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3)
+    std::swap(mesh.indices[t + 1], mesh.indices[t + 2]);
+  for (Vec3& normal : mesh.normals) normal = -normal;
+}
+
 // Handles one by one, as long as they are small.
 Result<RepairedSphere> cut_handles(RepairedSphere repaired, const RepairOptions& options) {
   for (int handle = 0; handle < kMostHandles; ++handle) {
@@ -317,7 +323,12 @@ Result<RepairedSphere> repair_to_sphere(const TriangleMesh& mesh, const RepairOp
   at_rest.poses.clear(), at_rest.skin.clear(), at_rest.rig.reset();
   auto repaired = SphereRepair(at_rest, options).run();
   if (!repaired) return repaired;
-  return cut_handles(std::move(*repaired), options);
+  repaired = cut_handles(std::move(*repaired), options);
+  if (signed_volume(repaired->mesh) < 0) {
+    turn_inside_out(repaired->mesh);
+    repaired->report.turned = true;
+  }
+  return repaired;
 }
 
 }  // namespace varifold

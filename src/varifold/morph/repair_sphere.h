@@ -24,11 +24,13 @@ struct RepairReport {
   std::uint32_t closed_holes = 0;
   std::uint32_t new_triangles = 0;  ///< that close them
   std::uint32_t cut_handles = 0;
+  bool turned = false;  ///< it was inside out: all triangles were turned
 
   [[nodiscard]] bool changed() const {
     return dropped_triangles + cut_edges + split_points + dropped_components + closed_holes +
-               cut_handles >
-           0;
+                   cut_handles >
+               0 ||
+           turned;
   }
 };
 
@@ -45,9 +47,12 @@ struct RepairedSphere {
 /// of an edge apart. The component with the most triangles stays; its holes are closed by fans
 /// about their middles. Attributes and materials are kept; those of new vertices are means. Poses
 /// and skins are dropped. Small handles, as touching sheets leave them, are cut and closed like
-/// holes. Greater ones are left; so are turned triangles, as holes at most. Errors: kInvalidInput
-/// where indices or sizes of arrays are wrong, or nothing is left. O(n log n). Based on:
-/// [GueziecTaubinLazarusHorn2001] for cutting and stitching.
+/// holes. Greater ones are left; so are single turned triangles, as holes at most. A surface that
+/// is inside out is turned, with its normals: two that are not alike would morph into mirror
+/// images. Errors: kInvalidInput where indices or sizes of arrays are wrong, or nothing is left.
+/// O(n log n).
+///
+/// Based on: [GueziecTaubinLazarusHorn2001] for cutting and stitching.
 [[nodiscard]] Result<RepairedSphere> repair_to_sphere(const TriangleMesh& mesh,
                                                       const RepairOptions& options = {});
 
