@@ -19,7 +19,7 @@ struct MorphCommand {
   std::string output, features;
   double tolerance = SupermeshOptions().tolerance;
   std::uint32_t samples = 100'000;
-  bool no_repair = false;
+  bool no_repair = false, fit = false;
 };
 
 // Two numbers of vertices a line; the rest of a line after # is a comment.
@@ -137,6 +137,7 @@ CommandResult run_morph(const MorphCommand& command) {
     inputs[i] = std::move(*mesh);
   }
   options.tolerance = command.tolerance;
+  options.fit = command.fit;
   options.threads = command.common.threads;
   options.progress = show_progress(command.inputs[0]);
   auto super = build_supermesh(inputs[0], inputs[1], options);
@@ -149,6 +150,7 @@ CommandResult run_morph(const MorphCommand& command) {
   if (auto written = write_mesh_loudly(super->mesh, output); !written)
     return tl::unexpected(written.error());
 
+  for (Vec3& p : inputs[1].positions) p = super->report.moved_b(p);
   Report report;
   report_supermesh(*super, report);
   const Ends ends = report_ends(super->mesh, inputs, command, report);
@@ -181,6 +183,8 @@ void add_morph(CLI::App& app, CommandRunner& runner) {
       ->type_name("T");
   command->add_flag("--no-repair", options->no_repair,
                     "Refuse meshes that are not closed manifolds instead of mending them");
+  command->add_flag("--fit", options->fit,
+                    "Turn B by multiples of 90 degrees, scale and move it to where A is");
   command->add_option("--samples", options->samples, "Points per direction to measure the ends at")
       ->check(CLI::Range(1u, 100'000'000u))
       ->capture_default_str()

@@ -167,6 +167,27 @@ TEST(Supermesh, FeaturesMeet) {
   EXPECT_FALSE(build_supermesh(a, b, options));
 }
 
+TEST(Supermesh, FitsTurnedShapes) {
+  // Three unlike axes, so that one turn alone fits.
+  TriangleMesh a = test::icosphere(500);
+  a.normals.clear();
+  for (Vec3& p : a.positions)
+    p *= Vec3(1, p.y > 0 ? 2.0f : 1.5f, 3) * (p.x > 0 ? 1.0f : 0.6f) * (p.z > 0 ? 1.0f : 0.7f);
+  TriangleMesh b = a;
+  for (Vec3& p : b.positions) p = 5.0f * Vec3(p.y, p.z, p.x) + Vec3(100, 0, 0);
+  SupermeshOptions options;
+  options.tolerance = 0;
+  options.fit = true;
+  const auto super = build_supermesh(a, b, options);
+  ASSERT_TRUE(super) << super.error().message;
+  EXPECT_NEAR(super->report.moved_b.scale, 0.2, 1e-3);
+  expect_shape(shape_of(super->mesh, true), a, 1e-3);
+  double sum = 0;
+  for (std::uint32_t v = 0; v < super->mesh.vertex_count(); ++v)
+    sum += glm::distance(super->mesh.positions[v], super->mesh.poses[0].positions[v]);
+  EXPECT_LT(sum / super->mesh.vertex_count(), 0.15);
+}
+
 TEST(Supermesh, CarriesSeamsAndMaterials) {
   GeneratorOptions shape;
   shape.triangles = 800;

@@ -207,7 +207,7 @@ Rotation align_features(const SphereMap& a, const SphereMap& b,
   return matrix(least(cost).rotation);
 }
 
-Rotation align_shapes(const SphereMap& a, const SphereMap& b) {
+ShapeAlignment align_shapes(const SphereMap& a, const SphereMap& b) {
   ShapeSampler sampler(a);
   std::vector<DVec3> ways, places;
   for (std::uint32_t i = 0; i < kDirections; ++i) {  // a spiral of equal areas
@@ -219,6 +219,7 @@ Rotation align_shapes(const SphereMap& a, const SphereMap& b) {
   const CubeTable table(b);
   Found best;
   std::vector<DVec3> turned(places.size());
+  Rotation best_turn = kNoRotation;
   bool is_first = true;
   for (const Rotation& turn : axis_rotations()) {
     for (std::size_t i = 0; i < places.size(); ++i) turned[i] = rotated(turn, places[i]);
@@ -232,10 +233,10 @@ Rotation align_shapes(const SphereMap& a, const SphereMap& b) {
       return is_first ? sum : kTurnedFactor * sum;
     };
     const Found found = least(cost);
-    if (is_first || found.cost < best.cost) best = found;
+    if (is_first || found.cost < best.cost) best = found, best_turn = transposed(turn);
     is_first = false;
   }
-  return matrix(best.rotation);
+  return {matrix(best.rotation), best_turn};
 }
 
 std::vector<SpherePoint> rotated_points(std::span<const SpherePoint> points,

@@ -19,6 +19,14 @@ using Rotation = std::array<DVec3, 3>;
   return {glm::dot(rotation[0], v), glm::dot(rotation[1], v), glm::dot(rotation[2], v)};
 }
 
+inline constexpr Rotation kNoRotation{DVec3(1, 0, 0), DVec3(0, 1, 0), DVec3(0, 0, 1)};
+
+/// How the second of two shapes is best turned towards the first one.
+struct ShapeAlignment {
+  Rotation sphere;  ///< of its map
+  Rotation shape;   ///< of itself, about its middle: takes axes to axes
+};
+
 /// A surface by its points and where they lie on the sphere.
 struct SphereMap {
   const SphereTriangulation& sphere;
@@ -35,7 +43,7 @@ struct SphereMap {
 /// one size. They should stand alike; but if one is turned by a multiple of 90 degrees about an
 /// axis, and fits clearly better so, that is found. O(n + 100,000 look-ups), the same result
 /// always.
-[[nodiscard]] Rotation align_shapes(const SphereMap& a, const SphereMap& b);
+[[nodiscard]] ShapeAlignment align_shapes(const SphereMap& a, const SphereMap& b);
 
 /// All directions turned; rounded, so triangles of less than 1e-11 in height may turn over.
 [[nodiscard]] std::vector<SpherePoint> rotated_points(std::span<const SpherePoint> points,

@@ -110,8 +110,14 @@ class SupermeshBuilder {
     const SphereTriangulation a(surfaces_[0].indices, points_[0]),
         b(surfaces_[1].indices, points_[1]);
     const SphereMap map_a{a, surfaces_[0].positions}, map_b{b, surfaces_[1].positions};
-    Rotation rotation =
-        features_.empty() ? align_shapes(map_a, map_b) : align_features(map_a, map_b, features_);
+    Rotation rotation;
+    if (features_.empty()) {
+      const ShapeAlignment found = align_shapes(map_a, map_b);
+      rotation = found.sphere;
+      result_.report.moved_b.turn = found.shape;
+    } else {
+      rotation = align_features(map_a, map_b, features_);
+    }
     for (int attempt = 0; attempt < 20; ++attempt) {
       points_[1] = rotated_points(b.points, rotation);
       if (count_flipped_on_sphere(b.indices, points_[1]) == 0) return {};
@@ -172,8 +178,26 @@ class SupermeshBuilder {
     result_.report.merged_points = reduced.merged_points;
     result_.report.removed_points = reduced.removed_points;
     result_.mesh = std::move(overlay_.mesh);
+    if (options_.fit)
+      fit();
+    else
+      result_.report.moved_b = {};
     result_.report.reduce_seconds = watch_.lap();
     return {};
+  }
+
+  // The turn is known; boxes give the rest.
+  void fit() {
+    Similarity& similarity = result_.report.moved_b;
+    Box box_a, box_b;
+    for (const Vec3& p : surfaces_[0].positions) box_a.add(p);
+    for (const Vec3& p : surfaces_[1].positions) box_b.add(similarity(p));
+    if (box_b.diagonal() > 0)
+      similarity.scale = static_cast<double>(box_a.diagonal()) / box_b.diagonal();
+    similarity.offset = DVec3(box_a.center()) - similarity.scale * DVec3(box_b.center());
+    Pose& pose = result_.mesh.poses[0];
+    for (Vec3& p : pose.positions) p = similarity(p);
+    for (Vec3& n : pose.normals) n = Vec3(rotated(similarity.turn, DVec3(n)));
   }
 
   MutableSphereMap map_of(int i) {

@@ -16,8 +16,22 @@ struct SupermeshOptions {
   /// The overlay is simplified while each shape stays this near its input, as a part of the
   /// diagonal of its box. 0: every vertex of the overlay is kept.
   double tolerance = 8e-5;
+  /// Moves the shape of b: turned about axes by multiples of 90 degrees where it fits better so
+  /// (not with features), as large as a by the diagonals of their boxes, and with its middle.
+  bool fit = false;
   int threads = 0;  ///< 0 = all; the result does not depend on it
   Progress progress;
+};
+
+/// p -> scale * turn(p) + offset
+struct Similarity {
+  Rotation turn = kNoRotation;
+  double scale = 1;
+  DVec3 offset{0};
+
+  [[nodiscard]] Vec3 operator()(const Vec3& p) const {
+    return Vec3(scale * rotated(turn, DVec3(p)) + offset);
+  }
 };
 
 /// What went in and what came of it.
@@ -31,6 +45,7 @@ struct SupermeshReport {
   /// Triangles of a and b that are not strictly positive on the sphere; always 0.
   std::uint32_t flipped_on_sphere = 0;
   double feature_distance = 0;  ///< the farthest pair of features on the sphere, in radians
+  Similarity moved_b;           ///< what `fit` did to the shape of b
   double embed_seconds = 0;     ///< both surfaces onto the sphere
   double align_seconds = 0;     ///< rotation and features
   double overlay_seconds = 0;
