@@ -9,7 +9,7 @@
 namespace varifold {
 namespace {
 
-constexpr std::uint32_t kRotationSamples = 1200;
+constexpr std::uint32_t kRotationSamples = 6000;
 constexpr std::size_t kRefined = 6;
 constexpr std::uint32_t kDirections = 700;
 constexpr std::uint32_t kCubeSide = 48;
@@ -191,6 +191,41 @@ Rotation transposed(const Rotation& r) {
           DVec3(r[0].z, r[1].z, r[2].z)};
 }
 
+std::vector<DVec3> sampled(const SphereMap& map, const std::vector<DVec3>& ways) {
+  ShapeSampler sampler(map);
+  std::vector<DVec3> places;
+  places.reserve(ways.size());
+  for (const DVec3& way : ways) places.push_back(sampler.at(way));
+  return places;
+}
+
+// The sum of the squared distances to the nearest of the others.
+double one_sided(const std::vector<DVec3>& places, const std::vector<DVec3>& others) {
+  double sum = 0;
+  for (const DVec3& place : places) {
+    double nearest = 1e300;
+    for (const DVec3& other : others) {
+      const DVec3 gap = place - other;
+      nearest = std::min(nearest, glm::dot(gap, gap));
+    }
+    sum += nearest;
+  }
+  return sum;
+}
+
+// How the first shape is to be turned to lie on the second one.
+Rotation best_turn(const std::vector<DVec3>& places, const std::vector<DVec3>& others) {
+  Rotation best = kNoRotation;
+  double least_sum = one_sided(places, others) + one_sided(others, places);
+  std::vector<DVec3> turned(places.size());
+  for (const Rotation& turn : axis_rotations()) {
+    for (std::size_t i = 0; i < places.size(); ++i) turned[i] = rotated(turn, places[i]);
+    const double sum = kTurnedFactor * (one_sided(turned, others) + one_sided(others, turned));
+    if (sum < least_sum) least_sum = sum, best = turn;
+  }
+  return best;
+}
+
 }  // namespace
 
 Rotation align_features(const SphereMap& a, const SphereMap& b,
@@ -208,35 +243,26 @@ Rotation align_features(const SphereMap& a, const SphereMap& b,
 }
 
 ShapeAlignment align_shapes(const SphereMap& a, const SphereMap& b) {
-  ShapeSampler sampler(a);
-  std::vector<DVec3> ways, places;
+  std::vector<DVec3> ways;
   for (std::uint32_t i = 0; i < kDirections; ++i) {  // a spiral of equal areas
     const double z = 1 - (2.0 * i + 1) / kDirections, r = std::sqrt(1 - z * z);
     const glm::dvec2 turn = unit_circle(std::uint64_t{i} * 377 % 610, 610);  // by golden sections
     ways.emplace_back(r * turn.x, r * turn.y, z);
-    places.push_back(sampler.at(ways.back()));
   }
+  std::vector<DVec3> places = sampled(a, ways);
+  const Rotation turn = best_turn(places, sampled(b, ways));
+  for (DVec3& place : places) place = rotated(turn, place);
   const CubeTable table(b);
-  Found best;
-  std::vector<DVec3> turned(places.size());
-  Rotation best_turn = kNoRotation;
-  bool is_first = true;
-  for (const Rotation& turn : axis_rotations()) {
-    for (std::size_t i = 0; i < places.size(); ++i) turned[i] = rotated(turn, places[i]);
-    const auto cost = [&](const Rotation& rotation) {
-      const Rotation back = transposed(rotation);
-      double sum = 0;
-      for (std::size_t i = 0; i < ways.size(); ++i) {
-        const DVec3 gap = turned[i] - table.at(rotated(back, ways[i]));
-        sum += glm::dot(gap, gap);
-      }
-      return is_first ? sum : kTurnedFactor * sum;
-    };
-    const Found found = least(cost);
-    if (is_first || found.cost < best.cost) best = found, best_turn = transposed(turn);
-    is_first = false;
-  }
-  return {matrix(best.rotation), best_turn};
+  const auto cost = [&](const Rotation& rotation) {
+    const Rotation back = transposed(rotation);
+    double sum = 0;
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+      const DVec3 gap = places[i] - table.at(rotated(back, ways[i]));
+      sum += glm::dot(gap, gap);
+    }
+    return sum;
+  };
+  return {matrix(least(cost).rotation), transposed(turn)};
 }
 
 std::vector<SpherePoint> rotated_points(std::span<const SpherePoint> points,

@@ -40,9 +40,9 @@ struct SphereMap {
 
 /// The rotation of the sphere of `b` under which places of the shapes that meet are closest, least
 /// squares over the sphere; shapes are compared with the middles of their surfaces together and at
-/// one size. They should stand alike; but if one is turned by a multiple of 90 degrees about an
-/// axis, and fits clearly better so, that is found. O(n + 100,000 look-ups), the same result
-/// always.
+/// one size. They should stand alike; but if one of them turned by a multiple of 90 degrees about
+/// axes lies clearly nearer to the other, it is compared so. O(n + 5 million look-ups), the same
+/// result always.
 [[nodiscard]] ShapeAlignment align_shapes(const SphereMap& a, const SphereMap& b);
 
 /// All directions turned; rounded, so triangles of less than 1e-11 in height may turn over.
