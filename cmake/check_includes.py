@@ -16,6 +16,7 @@ RANK = {
     "simplify": 2,
     "strip": 2,
     "partition": 2,
+    "morph": 2,
     "view": 2,
     "models": 3,
     "measure": 4,
@@ -24,7 +25,7 @@ RANK = {
     "bindings": 4,
     "apps": 5,
 }
-BESIDE = {("strip", "simplify"), ("strip", "view")}
+BESIDE = {("strip", "simplify"), ("strip", "view"), ("morph", "simplify")}
 FORBIDDEN = set()
 # What models share; models know nothing else of each other.
 SHARED = "models/common"

@@ -14,6 +14,7 @@ void add_extract(CLI::App& app, CommandRunner& runner);
 void add_check(CLI::App& app, CommandRunner& runner);
 void add_render(CLI::App& app, CommandRunner& runner);
 void add_bench(CLI::App& app, CommandRunner& runner);
+void add_morph(CLI::App& app, CommandRunner& runner);
 void add_demo(CLI::App& app, CommandRunner& runner);
 
 }  // namespace varifold::cli

@@ -19,6 +19,7 @@ void add_commands(CLI::App& app, CommandRunner& runner) {
   add_check(app, runner);
   add_render(app, runner);
   add_bench(app, runner);
+  add_morph(app, runner);
   add_demo(app, runner);
   app.footer(
       "Exit codes: 0 done; 1 the job failed, or a check found faults; 2 wrong usage;\n"

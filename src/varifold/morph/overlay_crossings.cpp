@@ -1,0 +1,134 @@
+// Based on: [KentCarlsonParent1992] for the overlay of two maps onto the sphere by walking along
+// edges. Differs: exact signs of whole-numbered directions. Nothing is ever compared along an edge:
+// the
+//   order of crossings along the edges of a comes from walking those over b.
+#include <varifold/base/parallel.h>
+#include <varifold/morph/overlay.h>
+#include <algorithm>
+#include <atomic>
+#include <utility>
+
+namespace varifold {
+namespace {
+
+constexpr std::size_t kEdgesAtOnce = 1024;
+
+// Walks from a vertex inside `triangle` of `map` to another point along the great circle. Gives
+// the half-edges that it leaves triangles by; false where a sign is zero.
+template <class Visit>
+bool walk(const SphereTriangulation& map, const SpherePoint& start, const SpherePoint& end,
+          std::uint32_t triangle, const Visit& visit) {
+  const auto side = [&](std::uint32_t vertex) {
+    return orientation(start, end, map.points[vertex]);
+  };
+  // The half-edge with its beginning on the right and its end on the left is the way out.
+  std::uint32_t exit = kNone;
+  for (std::uint32_t h = 3 * triangle; h < 3 * triangle + 3; ++h) {
+    const int from = side(map.from(h)), to = side(map.to(h));
+    const int inside = orientation(map.points[map.from(h)], map.points[map.to(h)], start);
+    if (from == 0 || to == 0 || inside <= 0) return false;
+    if (from < 0 && to > 0) exit = h;
+  }
+  if (exit == kNone) return false;
+  for (std::size_t step = 0; step < map.indices.size(); ++step) {
+    const int inside = orientation(map.points[map.from(exit)], map.points[map.to(exit)], end);
+    if (inside == 0) return false;
+    if (inside > 0) return true;
+    visit(exit);
+    const std::uint32_t entry = map.opposite[exit], ahead = next_half_edge(entry);
+    const int apex = side(map.to(ahead));
+    if (apex == 0) return false;
+    // The entry runs from left to right, seen along the way.
+    exit = apex > 0 ? ahead : next_half_edge(ahead);
+  }
+  return false;
+}
+
+// For every edge of `edges`, the half-edges of `map` that it leaves triangles by.
+struct Walks {
+  std::vector<std::uint32_t> first, half_edges;
+  bool is_exact = true;
+};
+
+Walks walk_all(const SphereTriangulation& edges, const SphereTriangulation& map,
+               const std::vector<std::uint32_t>& place, int threads) {
+  const std::size_t pieces = (edges.edge_count() + kEdgesAtOnce - 1) / kEdgesAtOnce;
+  std::vector<std::vector<std::uint32_t>> found(pieces);
+  Walks walks;
+  walks.first.resize(edges.edge_count() + 1, 0);
+  std::atomic<bool> is_exact = true;
+  parallel_for(threads, pieces, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t piece = begin; piece < end; ++piece) {
+      const std::size_t last =
+          std::min<std::size_t>((piece + 1) * kEdgesAtOnce, edges.edge_count());
+      for (std::size_t e = piece * kEdgesAtOnce; e < last; ++e) {
+        const std::uint32_t h = edges.edge_half[e], from = edges.from(h);
+        const std::size_t before = found[piece].size();
+        if (place[from] == kNone ||
+            !walk(map, edges.points[from], edges.points[edges.to(h)], place[from],
+                  [&](std::uint32_t exit) { found[piece].push_back(exit); }))
+          is_exact = false;
+        walks.first[e + 1] = static_cast<std::uint32_t>(found[piece].size() - before);
+      }
+    }
+  });
+  for (std::size_t e = 0; e < edges.edge_count(); ++e) walks.first[e + 1] += walks.first[e];
+  for (const auto& piece : found)
+    walks.half_edges.insert(walks.half_edges.end(), piece.begin(), piece.end());
+  walks.is_exact = is_exact;
+  return walks;
+}
+
+// Puts the crossings that the walks along b have found in the order of the walks along a.
+bool order_along_a(const Walks& along_a, const SphereTriangulation& b, Crossings& result) {
+  if (along_a.half_edges.size() != result.crossings.size()) return false;
+  result.first_on_a = along_a.first;
+  result.on_a.resize(result.crossings.size());
+  std::vector<std::uint32_t> filled(along_a.first.begin(), along_a.first.end() - 1);
+  // Rows of crossings per edge of a, by edges of b, for they come in that order.
+  for (std::uint32_t x = 0; x < result.crossings.size(); ++x) {
+    const std::uint32_t edge = result.crossings[x].edge_a;
+    if (filled[edge] == along_a.first[edge + 1]) return false;
+    result.on_a[filled[edge]++] = x;
+  }
+  const auto edge_b_of = [&](std::uint32_t x) { return result.crossings[x].edge_b; };
+  std::vector<std::uint32_t> row;
+  for (std::uint32_t edge = 0; edge + 1 < along_a.first.size(); ++edge) {
+    const std::uint32_t first = along_a.first[edge], last = along_a.first[edge + 1];
+    row.assign(result.on_a.begin() + first, result.on_a.begin() + last);
+    for (std::uint32_t i = first; i < last; ++i) {
+      const std::uint32_t wanted = b.edge_of[along_a.half_edges[i]];
+      const auto found = std::lower_bound(
+          row.begin(), row.end(), wanted,
+          [&](std::uint32_t x, std::uint32_t edge_b) { return edge_b_of(x) < edge_b; });
+      if (found == row.end() || edge_b_of(*found) != wanted) return false;
+      result.on_a[i] = *found;
+      result.crossings[*found].place_a = i - first;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+std::optional<Crossings> find_crossings(const SphereTriangulation& a, const SphereTriangulation& b,
+                                        int threads) {
+  Crossings result;
+  parallel_both(
+      threads, [&] { result.triangle_in_b = locate_vertices(a, b); },
+      [&] { result.triangle_in_a = locate_vertices(b, a); });
+  const Walks along_b = walk_all(b, a, result.triangle_in_a, threads);
+  const Walks along_a = walk_all(a, b, result.triangle_in_b, threads);
+  if (!along_a.is_exact || !along_b.is_exact) return std::nullopt;
+  result.first_on_b = along_b.first;
+  result.crossings.resize(along_b.half_edges.size());
+  for (std::uint32_t edge = 0; edge < b.edge_count(); ++edge)
+    for (std::uint32_t i = along_b.first[edge]; i < along_b.first[edge + 1]; ++i) {
+      const std::uint32_t exit = along_b.half_edges[i];
+      result.crossings[i] = {a.edge_of[exit], edge, 0, i - along_b.first[edge], a.is_first(exit)};
+    }
+  if (!order_along_a(along_a, b, result)) return std::nullopt;
+  return result;
+}
+
+}  // namespace varifold

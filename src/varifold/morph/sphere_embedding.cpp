@@ -1,0 +1,139 @@
+// Based on: [PraunHoppe2003] section 3: undo collapses one by one, each new vertex within the
+//   kernel of its ring, and relax as the mesh grows.
+// Differs: whole-numbered directions and exact signs; a vertex goes to the middle of its kernel.
+#include <varifold/morph/ring_decimation.h>
+#include <varifold/morph/sphere_embedding.h>
+#include <varifold/morph/star_relaxation.h>
+#include <cmath>
+#include <numbers>
+
+namespace varifold {
+namespace {
+
+// All vertices are relaxed whenever there are so many times more of them.
+constexpr double kGrowth = 1.25;
+constexpr int kSweepsAtGrowth = 2;
+// The part of the mean area of a triangle that each gets at least, roughly.
+constexpr double kAreaFloor = 0.02;
+
+// Around the middle of its box, one unit large: costs and floors are in proportion then.
+std::vector<Vec3> normalized(std::span<const Vec3> positions) {
+  Box box;
+  for (const Vec3& p : positions) box.add(p);
+  const DVec3 lower(box.lower), extent = DVec3(box.upper) - lower;
+  const double scale = 1 / std::max({extent.x, extent.y, extent.z, 1e-300});
+  std::vector<Vec3> result;
+  result.reserve(positions.size());
+  for (const Vec3& p : positions) result.emplace_back(Vec3(scale * (DVec3(p) - lower)) - Vec3(0.5));
+  return result;
+}
+
+class SphereEmbedding {
+ public:
+  SphereEmbedding(std::span<const std::uint32_t> indices, std::span<const Vec3> positions,
+                  const SphereEmbeddingOptions& options)
+      : options_(options),
+        positions_(normalized(positions)),
+        mesh_(indices, static_cast<std::uint32_t>(positions.size())),
+        points_(positions.size()),
+        relaxation_(mesh_, positions_, points_) {
+    for (std::size_t t = 0; t + 2 < indices.size(); t += 3) {
+      const Vec3 &a = positions_[indices[t]], &b = positions_[indices[t + 1]],
+                 &c = positions_[indices[t + 2]];
+      area_ += 0.5 * static_cast<double>(glm::length(glm::cross(b - a, c - a)));
+    }
+  }
+
+  Result<std::vector<SpherePoint>> run() {
+    const CollapseRecord record = decimate_to_tetrahedron(mesh_, positions_);
+    if (mesh_.vertex_count() != 4)
+      return fail(ErrorKind::kFailed, "the surface does not collapse to a tetrahedron");
+    place_base();
+    const std::size_t steps = record.steps.size();
+    double next_sweep = 6;
+    for (std::size_t i = 0; i < steps; ++i) {
+      const RecordedCollapse& step = record.steps[steps - 1 - i];
+      if (!split(record, step)) return out_of_resolution(step.vertex);
+      if (mesh_.vertex_count() < next_sweep) continue;
+      if (!proceed(0.5f * static_cast<float>(i) / static_cast<float>(steps))) return cancelled();
+      for (int sweep = 0; sweep < kSweepsAtGrowth; ++sweep) relax_all();
+      next_sweep = kGrowth * mesh_.vertex_count();
+    }
+    for (int sweep = 0; sweep < options_.final_sweeps; ++sweep) {
+      const auto done = static_cast<float>(sweep) / static_cast<float>(options_.final_sweeps);
+      if (!proceed(0.5f + 0.5f * done)) return cancelled();
+      relax_all();
+    }
+    return std::move(points_);
+  }
+
+ private:
+  [[nodiscard]] bool proceed(float done) const {
+    return !options_.progress || options_.progress(done);
+  }
+  static tl::unexpected<Error> cancelled() {
+    return fail(ErrorKind::kCancelled, "cancelled while a surface was laid onto the sphere");
+  }
+  static tl::unexpected<Error> out_of_resolution(std::uint32_t vertex) {
+    return fail(ErrorKind::kFailed, "vertex " + std::to_string(vertex) +
+                                        " finds no place on the sphere: triangles are too small");
+  }
+
+  // Edges are at least as long as those of a small part of a mean triangle.
+  void set_floor() {
+    relaxation_.set_scale(area_ / (4 * std::numbers::pi));
+    const double triangles = 2.0 * mesh_.vertex_count() - 4;
+    relaxation_.set_length_floor(std::sqrt(kAreaFloor * 2.3 * area_ / triangles + 1e-30));
+  }
+
+  void place_base() {
+    std::uint32_t top = 0;
+    while (!mesh_.is_live(top)) ++top;
+    points_[top] = to_sphere_point({0, 0, 1});
+    const double r = std::sqrt(8.0) / 3, x = -0.5 * r, y = std::sqrt(0.75) * r;
+    const auto ring = mesh_.ring(top);
+    points_[ring[0]] = to_sphere_point({r, 0, -1.0 / 3});
+    points_[ring[1]] = to_sphere_point({x, y, -1.0 / 3});
+    points_[ring[2]] = to_sphere_point({x, -y, -1.0 / 3});
+    set_floor();
+  }
+
+  bool split(const CollapseRecord& record, const RecordedCollapse& step) {
+    mesh_.undo(record, step);
+    if (!relaxation_.place(step.vertex)) return false;
+    for (const std::uint32_t neighbour : mesh_.ring(step.vertex)) relaxation_.relax(neighbour, 2);
+    relaxation_.relax(step.vertex, 2);
+    return true;
+  }
+
+  void relax_all() {
+    set_floor();
+    for (std::uint32_t v = 0; v < points_.size(); ++v)
+      if (mesh_.is_live(v)) relaxation_.relax(v, 2);
+  }
+
+  const SphereEmbeddingOptions& options_;
+  std::vector<Vec3> positions_;
+  RingMesh mesh_;
+  std::vector<SpherePoint> points_;
+  StarRelaxation relaxation_;
+  double area_ = 0;
+};
+
+}  // namespace
+
+Result<std::vector<SpherePoint>> embed_on_sphere(std::span<const std::uint32_t> indices,
+                                                 std::span<const Vec3> positions,
+                                                 const SphereEmbeddingOptions& options) {
+  return SphereEmbedding(indices, positions, options).run();
+}
+
+std::uint32_t count_flipped_on_sphere(std::span<const std::uint32_t> indices,
+                                      std::span<const SpherePoint> points) {
+  std::uint32_t flipped = 0;
+  for (std::size_t t = 0; t + 2 < indices.size(); t += 3)
+    flipped += orientation(points[indices[t]], points[indices[t + 1]], points[indices[t + 2]]) <= 0;
+  return flipped;
+}
+
+}  // namespace varifold
