@@ -59,6 +59,7 @@ void report_times(const BuildInput& input, const BuildTimes& times, Report& repo
 void add_build(CLI::App& app, CommandRunner& runner) {
   CLI::App* const build = app.add_subcommand("build", "Build a model with levels of detail");
   build->require_subcommand(1);
+  add_build_frames(*build, runner);
   add_build_patchtree(*build, runner);
   add_build_pm(*build, runner);
   add_build_strips(*build, runner);

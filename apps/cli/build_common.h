@@ -102,6 +102,7 @@ CommandResult build_and_write(const BuildOptions& build, const Make& make, const
 }
 
 /// The kinds, as subcommands of `build`.
+void add_build_frames(CLI::App& build, CommandRunner& runner);
 void add_build_patchtree(CLI::App& build, CommandRunner& runner);
 void add_build_pm(CLI::App& build, CommandRunner& runner);
 void add_build_strips(CLI::App& build, CommandRunner& runner);

@@ -1,13 +1,22 @@
-#include <apps/cli/build_frames.h>
+// varifold build framestrips: an order of collapses for each shape of a mesh, or for groups of
+// them.
+#include <apps/cli/build_common.h>
 #include <apps/cli/index_report.h>
 #include <fmt/format.h>
 #include <varifold/models/lodstrips/frame_build.h>
 #include <charconv>
 #include <memory>
+#include <optional>
 
 namespace varifold::cli {
 
 namespace {
+
+struct BuildCommand {
+  BuildOptions build;
+  std::string sequences = "frames";     ///< or how many
+  std::optional<std::uint32_t> frames;  ///< from the shape at rest to pose 1
+};
 
 // 0: one for each frame.
 std::uint32_t sequence_count(const std::string& text) {
@@ -35,28 +44,13 @@ void report_frames(const FrameStrips& model, Report& report) {
   report_indices(index_measures(instance.draw_list()), report);
 }
 
-}  // namespace
-
-void add_frame_options(CLI::App& command, FrameOptions& options) {
-  CLI::Option* const sequences =
-      command
-          .add_option("--sequences", options.sequences,
-                      "frames: an order of collapses for each shape, as in the thesis; N: for N "
-                      "groups of shapes (default: one for all, changed in place)")
-          ->type_name("N");
-  command
-      .add_option("--frames", options.frames,
-                  "With --sequences: so many shapes from the one at rest to pose 1 (default: the "
-                  "shape at rest and each pose)")
-      ->check(CLI::Range(1u, 10000u))
-      ->needs(sequences)
-      ->type_name("N");
-}
-
-CommandResult run_build_frames(const BuildOptions& build, const FrameOptions& frames) {
+CommandResult run_build(const BuildCommand& command) {
+  const BuildOptions& build = command.build;
   const auto input = rest_path(build.input, build.poses), output = output_path(build.output);
   FrameStripsOptions options;
-  options.sequences = sequence_count(frames.sequences);
+  options.sequences = sequence_count(command.sequences);
+  if (build.flags.placement == "optimal")
+    wrong_usage("--placement optimal: strips name vertices, they do not move them; use kept");
   if (auto writable = check_output(output, build.common, ".vfm"); !writable)
     return tl::unexpected(writable.error());
   const Stopwatch watch;
@@ -64,9 +58,9 @@ CommandResult run_build_frames(const BuildOptions& build, const FrameOptions& fr
   if (!imported) return tl::unexpected(std::move(imported.error()));
   const double read_seconds = watch.seconds();
   prepare_mesh(imported->mesh, build.prepare);
-  if (frames.frames && imported->mesh.poses.empty())
+  if (command.frames && imported->mesh.poses.empty())
     wrong_usage(input.string() + ": --frames needs a pose");
-  if (frames.frames) options.frames = morph_frames(*frames.frames);
+  if (command.frames) options.frames = morph_frames(*command.frames);
   options.simplify = simplify_options(build.flags, build.common, input);
   options.simplify.measure_error = !build.no_measure;
   auto built = build_frame_strips(imported->mesh, options);
@@ -91,6 +85,30 @@ CommandResult run_build_frames(const BuildOptions& build, const FrameOptions& fr
   report.seconds("seconds", "in all", watch.seconds());
   report.bytes("peak_rss_bytes", "memory at most", peak_rss_bytes());
   return finish(report, build.common, output);
+}
+
+}  // namespace
+
+void add_build_frames(CLI::App& build, CommandRunner& runner) {
+  CLI::App* const command = build.add_subcommand(
+      ModelKind<FrameStrips>::kName,
+      "LodStrips of a mesh that moves, with a sequence for each of its shapes");
+  const auto options = std::make_shared<BuildCommand>();
+  add_build_options(*command, options->build);
+  command
+      ->add_option(
+          "--sequences", options->sequences,
+          "frames: an order of collapses for each shape; N: for each of N groups of shapes")
+      ->capture_default_str()
+      ->type_name("N");
+  command
+      ->add_option("--frames", options->frames,
+                   "So many shapes from the one at rest to pose 1 (default: the shape at rest and "
+                   "each pose)")
+      ->check(CLI::Range(1u, 10000u))
+      ->type_name("N");
+  runner.add_common(*command, options->build.common, true);
+  runner.attach(*command, options->build.common, [options] { return run_build(*options); });
 }
 
 }  // namespace varifold::cli

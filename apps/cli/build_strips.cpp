@@ -1,13 +1,11 @@
 // varifold build strips|lodstrips|mts: a mesh becomes a model of triangle strips.
 #include <apps/cli/build_common.h>
-#include <apps/cli/build_frames.h>
 #include <apps/cli/index_report.h>
 #include <apps/cli/stripifier.h>
 #include <varifold/models/lodstrips/build.h>
 #include <varifold/models/mts/build.h>
 #include <varifold/models/strips/build.h>
 #include <memory>
-#include <type_traits>
 
 namespace varifold::cli {
 namespace {
@@ -114,13 +112,8 @@ void add_kind(CLI::App& build, CommandRunner& runner) {
   const auto options = std::make_shared<StripsCommand<Model>>();
   add_build_options(*command, options->build);
   StripsBuild<Model>::add_options(*command, options->own);
-  const auto frames = std::make_shared<FrameOptions>();
-  if constexpr (std::is_same_v<Model, LodStrips>) add_frame_options(*command, *frames);
   runner.add_common(*command, options->build.common, true);
-  runner.attach(*command, options->build.common, [options, frames] {
-    if (frames->empty()) return run_build<Model>(*options);
-    return run_build_frames(options->build, *frames);
-  });
+  runner.attach(*command, options->build.common, [options] { return run_build<Model>(*options); });
 }
 
 }  // namespace

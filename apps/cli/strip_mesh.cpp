@@ -83,6 +83,11 @@ StripMesh drawn_strips(const DrawList& list, const TriangleMesh& attributes, Str
   mesh.normals = gather(list.normals, kept);
   mesh.texcoords = gather(list.texcoords, kept);
   mesh.colors = gather(list.colors, kept);
+  mesh.skin = gather(list.skin, kept);
+  for (const Pose& pose : list.poses)
+    mesh.poses.push_back({pose.name, gather(std::span(pose.positions), kept),
+                          gather(std::span(pose.normals), kept)});
+  mesh.rig = attributes.rig;
   mesh.indices = triangles_of(strips);
   mesh.materials = attributes.materials;
   mesh.images = attributes.images;

@@ -106,8 +106,7 @@ class OverlayMesh {
                        kNone) {}
 
   OverlayTriangles run() {
-    mesh_.poses.resize(1);
-    mesh_.poses[0].name = "b";
+    mesh_.poses.push_back({"b", {}, {}});
     mesh_.materials = a_.mesh.materials;
     mesh_.images = a_.mesh.images;
     const std::vector<std::uint32_t> materials = triangle_materials(a_.mesh);

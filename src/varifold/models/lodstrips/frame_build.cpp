@@ -62,8 +62,10 @@ class Builder {
   // poses that do not count, so that points are those of all shapes.
   Result<DetailedMesh> simplify_frames(const std::vector<std::uint32_t>& members, bool measure) {
     TriangleMesh mesh = mesh_;
-    mesh.poses.push_back({"rest", std::move(mesh.positions), {}});
-    mesh.positions = shapes_[members[0]].positions;
+    if (!mesh.poses.empty()) {
+      mesh.poses.push_back({"rest", std::move(mesh.positions), {}});
+      mesh.positions = shapes_[members[0]].positions;
+    }
     std::vector<Pose> others;
     for (std::size_t i = 1; i < members.size(); ++i) others.push_back(shapes_[members[i]]);
     SimplifyOptions options = options_.simplify;
