@@ -10,10 +10,11 @@ mkdir -p "$out"
 # Of base, mesh and simplify what the runtime uses; of each model everything but its build.
 sources="src/varifold/base/checksum.cpp src/varifold/base/parallel.cpp"
 sources="$sources src/varifold/mesh/triangle_mesh.cpp src/varifold/mesh/weld.cpp"
+sources="$sources src/varifold/mesh/vertex_arrays.cpp"
 sources="$sources src/varifold/simplify/target_tree.cpp"
 sources="$sources $(git ls-files 'src/varifold/simplify/sequence_*.cpp' | grep -v sequence_builder)"
 sources="$sources $(git ls-files 'src/varifold/view/*.cpp')"
-sources="$sources $(git ls-files 'src/varifold/models/*/*.cpp' | grep -v -E '([/_]build[a-z_]*|static_removal|step_bounds|watch_bounds)\.cpp$' |
+sources="$sources $(git ls-files 'src/varifold/models/*/*.cpp' | grep -v -E '([/_]build[a-z_]*|static_removal|frame_clusters|shape_bounds|step_bounds|watch_bounds)\.cpp$' |
   grep -v -E 'patch_tree/(assemble|border_[a-z]*|component_removal|level_[a-z]*|mean_value_map|patch_errors)\.cpp$')"
 sources="$sources tests/runtime/no_exceptions.cpp"
 

@@ -4,8 +4,8 @@
 
 #include <varifold/base/random.h>
 #include <varifold/mesh/generators.h>
-#include <varifold/models/strips/draw_pages.h>
 #include <varifold/models/common/strip_filter.h>
+#include <varifold/models/strips/draw_pages.h>
 #include <algorithm>
 
 namespace varifold::test {

@@ -2,6 +2,7 @@
 
 #include <varifold/mesh/vertex_arrays.h>
 #include <varifold/mesh/weld.h>
+#include <varifold/models/common/extract_level.h>
 #include <varifold/models/common/strip_filter.h>
 #include <varifold/models/lodstrips/strip_bytes.h>
 #include <varifold/view/draw_vertices.h>
@@ -236,24 +237,13 @@ TriangleMesh FrameStripsInstance::extract() const {
   for (std::uint32_t i = 0; i < kept.size(); ++i) number[kept[i]] = i;
 
   const TriangleMesh& full = model_->attributes();
+  TriangleMesh shown = extract_level(full, full.vertex_count(), list);
+  for (std::uint32_t& v : shown.indices) v = number[v];
   TriangleMesh mesh = gather_vertices(full, kept);
+  mesh.indices = std::move(shown.indices);
+  mesh.ranges = std::move(shown.ranges);
   mesh.materials = full.materials;
   mesh.images = full.images;
-  const TriangleStrips strips = strips_of(list.indices, list.ranges);
-  for (std::uint32_t s = 0; s < strips.count(); ++s) {
-    const auto strip = strips.strip(s);
-    const std::uint32_t before = mesh.triangle_count();
-    for (std::size_t i = 0; i + 2 < strip.size(); ++i) {
-      const auto corners = strip_triangle(strip, i);
-      if (is_degenerate(corners)) continue;
-      for (const std::uint32_t v : corners) mesh.indices.push_back(number[v]);
-    }
-    if (full.ranges.empty()) continue;
-    const std::uint32_t added = mesh.triangle_count() - before;
-    if (mesh.ranges.empty() || mesh.ranges.back().material != strips.range[s])
-      mesh.ranges.push_back({strips.range[s], before, 0});
-    mesh.ranges.back().triangle_count += added;
-  }
   return mesh;
 }
 

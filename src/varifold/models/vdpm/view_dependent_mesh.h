@@ -72,10 +72,7 @@ class ViewDependentMesh : public LevelQueries<ViewDependentMesh> {
   /// Of both balls: where the split puts the step's point; the middle of all places where that is,
   /// where the mesh takes several shapes.
   [[nodiscard]] const Vec3& center(std::uint32_t step) const {
-    if (!data_.centers.empty()) return data_.centers[step];
-    const std::uint32_t vertex = first_vertex(step);
-    const std::uint32_t look = data_.first_look.empty() ? kNone : data_.first_look[vertex];
-    return look == kNone ? data_.mesh.positions[vertex] : data_.placed.positions[look];
+    return has_plain_centers_ ? data_.mesh.positions[step + base_vertices_] : other_center(step);
   }
   /// Holds every vertex of every front. O(1).
   [[nodiscard]] const Sphere& bounding_ball() const { return ball_; }
@@ -83,8 +80,7 @@ class ViewDependentMesh : public LevelQueries<ViewDependentMesh> {
   /// Hints that the bounds, or the record, of a step are wanted soon.
   void prefetch_bounds(std::uint32_t step) const {
     __builtin_prefetch(&data_.bounds[step]);
-    __builtin_prefetch(data_.centers.empty() ? &data_.mesh.positions[first_vertex(step)]
-                                             : &data_.centers[step]);
+    __builtin_prefetch(&center(step));
   }
   void prefetch_record(std::uint32_t step) const { data_.records.prefetch(step); }
 
@@ -131,10 +127,13 @@ class ViewDependentMesh : public LevelQueries<ViewDependentMesh> {
   [[nodiscard]] std::size_t bytes() const;
 
  private:
+  [[nodiscard]] const Vec3& other_center(std::uint32_t step) const;
+
   ViewDependentMeshData data_;
   Sphere ball_;
   std::uint32_t base_vertices_ = 0;
   bool one_vertex_a_step_ = false;
+  bool has_plain_centers_ = false;  // the positions beyond the base, one a step
 };
 
 }  // namespace varifold
