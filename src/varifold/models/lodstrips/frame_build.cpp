@@ -132,6 +132,7 @@ class Builder {
     data.mesh.poses = {};
     gather_shapes(original, data.mesh);
     data.strips = sorted_by_range(stripify(data.mesh, options_.stripify));
+    data.frames.reserve(frames_.size());
     for (std::size_t frame = 0; frame < frames_.size(); ++frame)
       data.frames.push_back({frames_[frame], group_of[frame]});
     return data;
