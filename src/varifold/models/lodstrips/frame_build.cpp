@@ -166,6 +166,7 @@ class Builder {
 std::vector<Pose> frame_shapes(const TriangleMesh& mesh,
                                const std::vector<std::vector<float>>& frames) {
   std::vector<Pose> shapes;
+  shapes.reserve(frames.size());
   for (const std::vector<float>& weights : frames)
     shapes.push_back({"", blend_poses(mesh, weights).positions, {}});
   return shapes;
