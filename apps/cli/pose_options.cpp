@@ -146,4 +146,18 @@ TriangleMesh frozen(TriangleMesh mesh, const ChosenPose& pose) {
   return mesh;
 }
 
+ShownPose shown_pose(const TriangleMesh& mesh, const ChosenPose& pose) {
+  ShownPose shown;
+  shown.weights = pose.weights;
+  if (pose.moves_rig) {
+    RigPose rig = pose_rig(mesh, pose.animation, pose.time);
+    shown.weights = std::move(rig.weights);
+    shown.joints = std::move(rig.joints);
+  }
+  PosedVertices vertices = blend_poses(mesh, shown.weights);
+  if (!shown.joints.empty() && mesh.has_skin()) skin_vertices(mesh.skin, shown.joints, vertices);
+  shown.positions = std::move(vertices.positions);
+  return shown;
+}
+
 }  // namespace varifold::cli

@@ -7,6 +7,7 @@
 #include <varifold/simplify/simplify.h>
 #include <cstdint>
 #include <filesystem>
+#include <glm/mat4x4.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -70,5 +71,14 @@ void go_to_pose(Instance& instance, const ChosenPose& pose) {
 
 /// The mesh frozen in the pose: its places and normals, without poses, skin and rig. O(mesh).
 [[nodiscard]] TriangleMesh frozen(TriangleMesh mesh, const ChosenPose& pose);
+
+/// What the vertex shader is told of a pose, and where it takes the vertices, for a camera.
+struct ShownPose {
+  std::vector<float> weights;
+  std::vector<glm::mat4> joints;
+  std::vector<Vec3> positions;
+};
+/// At rest nothing moves: weights and joints are empty then. O(mesh).
+[[nodiscard]] ShownPose shown_pose(const TriangleMesh& mesh, const ChosenPose& pose);
 
 }  // namespace varifold::cli

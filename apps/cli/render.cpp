@@ -4,6 +4,7 @@
 #include <apps/cli/input.h>
 #include <apps/cli/level_options.h>
 #include <apps/cli/picture.h>
+#include <apps/cli/pose_options.h>
 #include <varifold/measure/patch_motion.h>
 #include <varifold/render/colors.h>
 #include <varifold/render/mesh_draw_list.h>
@@ -21,6 +22,7 @@ struct RenderCommand {
   LevelOptions level;
   ViewOptions view;
   PlaceOptions places;
+  PoseChoice pose;
   std::string input, output, color = "auto";
   bool flat = false, wireframe = false, cull = false, no_occlusion = false;
   bool no_border_switch = false, arrays = false, morph = false;
@@ -54,6 +56,7 @@ struct Scene {
   const TriangleMesh* mesh = nullptr;
   std::uint64_t triangles = 0;
   std::span<const std::uint32_t> patches;  // per range, where a model has patches
+  const ShownPose* pose = nullptr;         // where the vertices go, if anywhere
 };
 
 // The ranges with a material for each patch, and the colours of those.
@@ -73,9 +76,11 @@ struct PatchColors {
 
 CommandResult render_scene(const RenderCommand& command, const Scene& scene, Report& report) {
   const auto output = output_path(command.output);
-  const auto camera = make_camera(command.view, scene.mesh->positions);
+  const auto camera =
+      make_camera(command.view, scene.pose ? scene.pose->positions : scene.mesh->positions);
   if (!camera) return tl::unexpected(camera.error());
   DrawStyle style;
+  if (scene.pose) style.pose = {scene.pose->weights, scene.pose->joints};
   style.shading = command.flat ? Shading::kFlat : Shading::kSmooth;
   style.color_mode = color_mode(command.color, *scene.mesh);
   const bool has_patches = scene.drawn.patches || !scene.patches.empty();
@@ -128,8 +133,10 @@ CommandResult render_mesh(const RenderCommand& command, const std::filesystem::p
   auto imported = read_surface(input);
   if (!imported) return tl::unexpected(imported.error());
   const TriangleMesh mesh = without_unused_vertices(imported->mesh);
-  return render_scene(
-      command, {{MeshDrawList(mesh).list(), {}, {}}, &mesh, mesh.triangle_count(), {}}, report);
+  const ShownPose pose = shown_pose(mesh, choose_pose(command.input, mesh, command.pose));
+  const MeshDrawList drawn(mesh);
+  return render_scene(command, {{drawn.list(), {}, {}}, &mesh, mesh.triangle_count(), {}, &pose},
+                      report);
 }
 
 // Wrong usage of what is for patch trees alone.
@@ -162,9 +169,12 @@ CommandResult render_level(const RenderCommand& command, const std::shared_ptr<c
                            Report& report) {
   check_patch_options<Model>(command);
   const TriangleMesh& full = model->attributes();
-  const auto camera = make_camera(command.view, full.positions);
+  const ChosenPose chosen_pose = choose_pose(command.input, full, command.pose);
+  const ShownPose pose = shown_pose(full, chosen_pose);
+  const auto camera = make_camera(command.view, pose.positions);
   if (!camera) return tl::unexpected(camera.error());
   InstanceOf<Model> instance(model);
+  go_to_pose(instance, chosen_pose);
   const ChosenLevel chosen = go_to_choice<Model>(instance, command.level, command.places, &*camera,
                                                  asks_for_view(command.view, command.level));
   warn_of_base(command.input, command.level, model->vertex_count(0), model->triangle_count(0));
@@ -173,11 +183,12 @@ CommandResult render_level(const RenderCommand& command, const std::shared_ptr<c
   if (chosen.error) report.length("error", "error", *chosen.error);
   report_budget(command.level, chosen, report);
   report.length("pixel_error", "error in pixels", chosen.pixel_error);
-  ListOptions how{.arrays = command.arrays};
+  // Patches in one call do not blend poses; arrays do.
+  ListOptions how{.arrays = command.arrays || !command.pose.empty()};
   if (command.morph) how.morphs = PatchMeasure::kPixels;
   FrameLists<Model> lists(model, how);
   if constexpr (DrawsPatches<Model>) instance.set_switches(!command.no_border_switch);
-  Scene scene{lists.of(instance), &full, chosen.triangles, {}};
+  Scene scene{lists.of(instance), &full, chosen.triangles, {}, &pose};
   if constexpr (DrawsPatches<Model>) {
     scene.drawn.patch_style.switch_borders = !command.no_border_switch;
     scene.patches = instance.nodes_of_ranges();
@@ -231,6 +242,7 @@ void add_render(CLI::App& app, CommandRunner& runner) {
   add_level_options(*command, options->level);
   add_view_options(*command, options->view);
   add_place_options(*command, options->places);
+  add_pose_choice(*command, options->pose);
   command->add_flag("--flat", options->flat, "Shade every triangle by its own normal");
   command->add_flag("--wireframe", options->wireframe, "Draw the edges over the shading");
   command->add_option("--wire-width", options->wire_width, "In pixels")

@@ -1,6 +1,7 @@
 #include <varifold/render/mesh_buffers.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <string>
 
 namespace varifold::gl {
@@ -12,12 +13,15 @@ struct Layout {
   GLenum type;
   GLboolean normalized;
   GLsizei stride;
+  GLuint offset = 0;
 };
 constexpr Layout kLayouts[MeshBuffers::kAttributeCount] = {
     {3, GL_FLOAT, GL_FALSE, sizeof(Vec3)},
     {3, GL_FLOAT, GL_FALSE, sizeof(Vec3)},
     {2, GL_FLOAT, GL_FALSE, sizeof(Vec2)},
     {4, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(Color)},
+    {4, GL_UNSIGNED_SHORT, GL_FALSE, sizeof(JointWeights), offsetof(JointWeights, joints)},
+    {4, GL_FLOAT, GL_FALSE, sizeof(JointWeights), offsetof(JointWeights, weights)},
 };
 
 std::size_t upload(GLuint buffer, std::span<const std::byte> bytes, std::size_t begin,
@@ -57,23 +61,32 @@ void MeshBuffers::connect(Attribute attribute, bool present) {
   const GLuint array = vertex_array_.name();
   if (!present) return glDisableVertexArrayAttrib(array, attribute);
   const Layout& layout = kLayouts[attribute];
-  glVertexArrayVertexBuffer(array, attribute, attributes_[attribute].name(), 0, layout.stride);
-  glVertexArrayAttribFormat(array, attribute, layout.components, layout.type, layout.normalized, 0);
+  const GLuint source = std::min<GLuint>(attribute, kJoints);
+  glVertexArrayVertexBuffer(array, attribute, attributes_[source].name(), 0, layout.stride);
+  if (attribute == kJoints)  // numbers, not parts of one
+    glVertexArrayAttribIFormat(array, attribute, layout.components, layout.type, layout.offset);
+  else
+    glVertexArrayAttribFormat(array, attribute, layout.components, layout.type, layout.normalized,
+                              layout.offset);
   glVertexArrayAttribBinding(array, attribute, attribute);
   glEnableVertexArrayAttrib(array, attribute);
 }
 
 Result<std::size_t> MeshBuffers::update(const DrawList& list) {
   if (!vertex_array_) vertex_array_ = make_vertex_array();
-  const std::span<const std::byte> sources[kAttributeCount] = {
+  const std::span<const std::byte> sources[kJointWeights] = {
       std::as_bytes(list.positions), std::as_bytes(list.normals), std::as_bytes(list.texcoords),
-      std::as_bytes(list.colors)};
+      std::as_bytes(list.colors), std::as_bytes(list.skin)};
   std::size_t uploaded = 0;
-  for (GLuint i = 0; i < kAttributeCount; ++i) {
+  for (GLuint i = 0; i < kJointWeights; ++i) {
     const auto stride = static_cast<std::size_t>(kLayouts[i].stride);
     uploaded += attributes_[i].update(sources[i], stride, list.changed_vertices);
     connect(static_cast<Attribute>(i), !sources[i].empty());
   }
+  connect(kJointWeights, !list.skin.empty());
+  auto posed = poses_.update(list);
+  if (!posed) return posed;
+  uploaded += *posed;
   uploaded +=
       indices_.update(std::as_bytes(list.indices), sizeof(std::uint32_t), list.changed_indices);
   glVertexArrayElementBuffer(vertex_array_.name(), indices_.name());
@@ -86,7 +99,11 @@ Result<void> check_list(const DrawList& list) {
   const std::size_t vertices = list.positions.size();
   const auto fits = [&](std::size_t count) { return count == 0 || count == vertices; };
   if (vertices >= kNone) return fail(ErrorKind::kUnsupported, "draw list: too many vertices");
-  if (!fits(list.normals.size()) || !fits(list.texcoords.size()) || !fits(list.colors.size()))
+  if (!fits(list.normals.size()) || !fits(list.texcoords.size()) || !fits(list.colors.size()) ||
+      !fits(list.skin.size()) ||
+      !std::all_of(list.poses.begin(), list.poses.end(), [&](const Pose& pose) {
+        return pose.positions.size() == vertices && fits(pose.normals.size());
+      }))
     return fail(ErrorKind::kInvalidInput, "draw list: attributes and positions differ in number");
   for (std::size_t i = 0; i < list.ranges.size(); ++i) {
     const DrawRange& range = list.ranges[i];

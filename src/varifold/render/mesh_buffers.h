@@ -3,6 +3,7 @@
 
 #include <varifold/base/result.h>
 #include <varifold/render/gl_objects.h>
+#include <varifold/render/pose_buffers.h>
 #include <varifold/view/draw_list.h>
 #include <cstddef>
 #include <span>
@@ -27,20 +28,30 @@ class PatchedBuffer {
 /// Vertex attributes in one buffer each, an index buffer and the vertex array that joins them.
 class MeshBuffers {
  public:
-  enum Attribute : GLuint { kPosition, kNormal, kTexcoord, kColor, kAttributeCount };
+  enum Attribute : GLuint {
+    kPosition,
+    kNormal,
+    kTexcoord,
+    kColor,
+    kJoints,
+    kJointWeights,
+    kAttributeCount
+  };
 
   /// Uploads what changed. Returns the bytes uploaded, or kFailed when memory ends.
   [[nodiscard]] Result<std::size_t> update(const DrawList& list);
   [[nodiscard]] GLuint vertex_array() const { return vertex_array_.name(); }
   [[nodiscard]] bool has(Attribute attribute) const { return present_[attribute]; }
+  [[nodiscard]] PoseBuffers& poses() { return poses_; }
 
  private:
   void connect(Attribute attribute, bool present);
 
   VertexArray vertex_array_;
-  PatchedBuffer attributes_[kAttributeCount];
+  PatchedBuffer attributes_[kJointWeights];  // joints and their weights share one
   bool present_[kAttributeCount] = {};
   PatchedBuffer indices_;
+  PoseBuffers poses_;
 };
 
 /// O(ranges) checks of what a list promises; kInvalidInput with the fault.

@@ -226,6 +226,10 @@ Result<void> Renderer::begin(const Camera& camera, const PictureOptions& options
   glClearNamedFramebufferfv(targets.scene.name(), GL_DEPTH, 0, &farthest);
   impl_->set_camera_uniforms(impl_->mesh_program);
   impl_->set_camera_uniforms(impl_->wire_program);
+  if (impl_->posed_program) {
+    impl_->set_camera_uniforms(impl_->posed_program);
+    impl_->set_camera_uniforms(impl_->posed_wire_program);
+  }
   if (impl_->patch_program) {
     impl_->set_camera_uniforms(impl_->patch_program);
     impl_->set_camera_uniforms(impl_->patch_wire_program);
@@ -237,13 +241,20 @@ Result<void> Renderer::begin(const Camera& camera, const PictureOptions& options
 
 Result<void> Renderer::draw(GpuMesh mesh, const DrawList& list, const DrawStyle& style) {
   if (!impl_->in_frame) return no_frame();
-  const MeshBuffers* buffers = impl_->find(mesh);
+  MeshBuffers* buffers = impl_->find(mesh);
   if (!buffers) return no_mesh();
+  const bool is_posed = !style.pose.empty();
+  if (is_posed)
+    if (auto made = impl_->make_posed_programs(); !made) return made;
   impl_->resolved = false;
   impl_->set_raster_state(style);
   glEnable(GL_PRIMITIVE_RESTART_FIXED_INDEX);
-  const gl::Program& program = style.wireframe ? impl_->wire_program : impl_->mesh_program;
+  const gl::Program& still = style.wireframe ? impl_->wire_program : impl_->mesh_program;
+  const gl::Program& moved = style.wireframe ? impl_->posed_wire_program : impl_->posed_program;
+  const gl::Program& program = is_posed ? moved : still;
   impl_->set_style_uniforms(program, style);
+  if (is_posed)
+    if (auto set = impl_->set_pose(program, *buffers, style.pose); !set) return set;
   const bool colored =
       style.color_mode == ColorMode::kVertexColor && buffers->has(MeshBuffers::kColor);
   gl::set_uniform(program, "use_vertex_color", static_cast<int>(colored));

@@ -36,6 +36,14 @@ enum class BackFaces {
   kCulled,     ///< not drawn
 };
 
+/// Where the vertices of a list go before they are drawn, in the vertex shader: to the blend of its
+/// poses, then where the joints of its skin take them. As blend_poses() and skin_vertices() do it.
+struct DrawPose {
+  std::span<const float> weights;  ///< of the list's poses; at most 8 that are not 0
+  std::span<const Mat4> joints;    ///< matrices by joint; empty: joints do nothing
+  [[nodiscard]] bool empty() const { return weights.empty() && joints.empty(); }
+};
+
 /// How one draw list is drawn. Colours are sRGB, 0 to 1, unless it says otherwise.
 struct DrawStyle {
   Shading shading = Shading::kSmooth;
@@ -54,6 +62,7 @@ struct DrawStyle {
   bool call_per_strip = false;
   /// Model to world. A rotation, a uniform scale without mirroring, and a translation.
   Mat4 placement{1.0f};
+  DrawPose pose;  ///< of lists with poses or a skin; not of patches
 };
 
 /// How a list of patches is drawn, beside its style.

@@ -15,6 +15,7 @@ namespace varifold {
 struct Renderer::Impl {
   gl::Program mesh_program, wire_program;
   gl::Program patch_program, patch_wire_program;  // made when the first patches are added
+  gl::Program posed_program, posed_wire_program;  // made when the first pose is drawn
   gl::PicturePasses passes;
   gl::FrameTargets targets;
   int max_samples = 1;
@@ -45,6 +46,9 @@ struct Renderer::Impl {
   void set_raster_state(const DrawStyle& style) const;
   void draw_ranges(const gl::Program& program, const DrawList& list, const DrawStyle& style);
   void draw_strips(const gl::Program& program, const DrawList& list, const DrawStyle& style) const;
+  [[nodiscard]] Result<void> make_posed_programs();
+  [[nodiscard]] Result<void> set_pose(const gl::Program& program, gl::MeshBuffers& buffers,
+                                      const DrawPose& pose) const;
   [[nodiscard]] Result<void> make_patch_programs();
   void set_patch_uniforms(const gl::Program& program, gl::PatchBuffers& buffers,
                           const DrawStyle& style, const PatchStyle& patch_style) const;
