@@ -1,6 +1,7 @@
 // varifold bench: how fast models change their level, and how fast the levels are drawn.
 #include <apps/cli/bench_camera.h>
 #include <apps/cli/bench_device.h>
+#include <apps/cli/bench_morph.h>
 #include <apps/cli/bench_path.h>
 #include <apps/cli/commands.h>
 #include <apps/cli/input.h>
@@ -180,7 +181,9 @@ class BenchWalk {
 // Wrong usage where the test is not for the model.
 void check_test(const BenchCommand& command, const std::string& input, const AnyModel& any) {
   std::visit(
-      [&]<class Model>(const std::shared_ptr<const Model>&) {
+      [&]<class Model>(const std::shared_ptr<const Model>& model) {
+        if (command.test.name == "morph" && model->attributes().poses.empty())
+          wrong_usage(input + ": --test morph needs a model with poses");
         if (command.test.name == "plane" && !FollowsPlane<Model>)
           wrong_usage(input + ": --test plane needs levels per region; a model of kind " +
                       ModelKind<Model>::kName + " has one level for all");
@@ -221,12 +224,15 @@ Result<Json> bench_model(const BenchCommand& command, const AnyModel& any, Bench
   return std::visit(
       [&]<class Model>(const std::shared_ptr<const Model>& model) -> Result<Json> {
         if (command.is_camera_test()) return bench_camera<Model>(command, model, device);
+        if (command.test.name == "morph")
+          return MorphWalk<Model>(model, command.test.steps, device).run();
         return BenchWalk<Model>(command, model, device).run();
       },
       any);
 }
 
 void add_row(const std::string& input, const Json& result, Report& report) {
+  if (result["test"] == "morph") return report.row(input, morph_row(result));
   std::string uploads;
   if (!result["uploaded_bytes_mean"].is_null())
     uploads =
@@ -317,8 +323,10 @@ void add_bench(CLI::App& app, CommandRunner& runner) {
       ->add_option("--test", options->test.name,
                    "linear: equal strides down and up; exponential: as an object goes away and "
                    "comes back; random: the worst case; plane: full detail on one side of a plane "
-                   "that moves along x, for models with levels per region; camera: along a --path")
-      ->check(CLI::IsMember({"linear", "exponential", "random", "plane", "camera"}))
+                   "that moves along x, for models with levels per region; camera: along a --path; "
+                   "morph: from pose to pose in --steps frames, at ten levels and with a change of "
+                   "level every 24 frames")
+      ->check(CLI::IsMember({"linear", "exponential", "random", "plane", "camera", "morph"}))
       ->capture_default_str()
       ->type_name("TEST");
   command->add_option("--steps", options->test.steps, "Changes of level")

@@ -40,6 +40,7 @@ class BenchDevice {
   void begin(const Camera& camera, bool call_per_strip) {
     camera_ = camera;
     style_.call_per_strip = call_per_strip;
+    style_.pose = {};
     if (mesh_) renderer_.remove(*mesh_);
     if (patches_) renderer_.remove(*patches_);
     mesh_.reset();
@@ -49,6 +50,8 @@ class BenchDevice {
     camera_ = camera;
     return draw(list);
   }
+  /// Of what is drawn from now on; its spans must live on.
+  void set_pose(const DrawPose& pose) { style_.pose = pose; }
   /// Uploads what changed, draws, waits for the device. The bytes of the first list do not count.
   Result<Upload> draw(const FrameList& list) {
     const Stopwatch watch;
