@@ -261,7 +261,7 @@ Result<ModelCheck> check_patch_tree(const std::shared_ptr<const PatchTree>& tree
   const std::size_t poses = tree->attributes().poses.size();
   const auto all_weights = check::checked_weights(poses);
   for (std::size_t i = 0; i < all_weights.size(); ++i) {
-    const auto in_pose = PatchTreeChecker(blended(*tree, all_weights[i]), options).run();
+    auto in_pose = PatchTreeChecker(blended(*tree, all_weights[i]), options).run();
     if (!in_pose) return in_pose;
     for (Fault fault : in_pose->faults) {
       if (fault.severity == Severity::kNote || (i >= poses && is_of_orientation(fault))) continue;
