@@ -6,16 +6,12 @@
 
 namespace varifold::cli {
 
-namespace {
-
-Result<void> write_picture(const Result<Image8>& image, const std::filesystem::path& path) {
+Result<void> Painter::write(const Result<Image8>& image, const std::filesystem::path& path) {
   if (!image) return fail_in(path.string(), image.error());
   const auto png = write_png(*image);
   if (!png) return fail_in(path.string(), png.error());
   return write_file(path, *png);
 }
-
-}  // namespace
 
 Result<Painter> Painter::create() {
   auto context = HeadlessContext::create();
@@ -33,12 +29,12 @@ Result<void> Painter::paint(const DrawList& list, const Camera& camera, const Dr
 
 Result<void> Painter::paint(std::span<const Item> items, const Camera& camera,
                             const std::filesystem::path& path) {
-  return write_picture(draw(items, camera), path);
+  return write(draw(items, camera), path);
 }
 
 Result<void> Painter::paint(const Renderer::PatchItem& item, const Camera& camera,
                             const std::filesystem::path& path) {
-  return write_picture(renderer_.render(item, camera, options_), path);
+  return write(renderer_.render(item, camera, options_), path);
 }
 
 Result<Image8> Painter::draw(std::span<const Item> items, const Camera& camera) {

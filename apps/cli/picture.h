@@ -30,6 +30,13 @@ class Painter {
   /// A front of patches (view/patch_draws.h).
   [[nodiscard]] Result<void> paint(const Renderer::PatchItem& item, const Camera& camera,
                                    const std::filesystem::path& path);
+  /// The same without a file.
+  [[nodiscard]] Result<Image8> picture(std::span<const Item> items, const Camera& camera) {
+    return draw(items, camera);
+  }
+  /// Errors begin with the path.
+  [[nodiscard]] static Result<void> write(const Result<Image8>& image,
+                                          const std::filesystem::path& path);
   PictureOptions& options() { return options_; }
 
  private:

@@ -1,5 +1,6 @@
 // varifold render: a picture of a mesh, or of a level of a model.
 #include <apps/cli/commands.h>
+#include <apps/cli/contact_sheet.h>
 #include <apps/cli/frame_lists.h>
 #include <apps/cli/input.h>
 #include <apps/cli/level_options.h>
@@ -23,6 +24,7 @@ struct RenderCommand {
   ViewOptions view;
   PlaceOptions places;
   PoseChoice pose;
+  ContactSheet sheet;
   std::string input, output, color = "auto";
   bool flat = false, wireframe = false, cull = false, no_occlusion = false;
   bool no_border_switch = false, arrays = false, morph = false;
@@ -130,6 +132,7 @@ CommandResult render_mesh(const RenderCommand& command, const std::filesystem::p
   if (command.no_border_switch) wrong_usage(command.input + ": --no-border-switch needs a model");
   if (command.arrays) wrong_usage(command.input + ": --arrays needs a model");
   if (command.morph) wrong_usage(command.input + ": --morph needs a model");
+  if (!command.sheet.empty()) wrong_usage(command.input + ": --sheet needs a model");
   auto imported = read_surface(input);
   if (!imported) return tl::unexpected(imported.error());
   const TriangleMesh mesh = without_unused_vertices(imported->mesh);
@@ -162,6 +165,42 @@ void blend(const RenderCommand& command, const Camera& camera, const ChosenLevel
   const PatchMotion::Frame told = motion.next(*scene.drawn.patches, range, camera);
   report.count("moving_vertices", "vertices on their way", told.moving);
   report.count("turned_triangles", "triangles turned over", told.turned);
+}
+
+// Levels by rows, shapes by columns.
+template <class Model>
+CommandResult render_sheet(const RenderCommand& command, const std::shared_ptr<const Model>& model,
+                           Report& report) {
+  const TriangleMesh& full = model->attributes();
+  if (full.poses.empty()) wrong_usage(command.input + ": --sheet needs a model with poses");
+  std::vector<Vec3> places = full.positions;
+  for (const Pose& pose : full.poses)
+    places.insert(places.end(), pose.positions.begin(), pose.positions.end());
+  ViewOptions view = command.view;
+  if (!view.has_size) view.width = view.height = 320;
+  const auto camera = make_camera(view, places);
+  if (!camera) return tl::unexpected(camera.error());
+  DrawStyle style;
+  style.shading = command.flat ? Shading::kFlat : Shading::kSmooth;
+  style.color_mode = color_mode(command.color, full);
+  style.wireframe = command.wireframe;
+  style.wire_width = command.wire_width;
+  const MeshDrawList materials(full);
+  style.material_colors = materials.material_colors();
+  auto painter = Painter::create();
+  if (!painter) return tl::unexpected(painter.error());
+  painter->options().supersampling = command.supersampling;
+  painter->options().ambient_occlusion = !command.no_occlusion;
+  std::vector<std::uint32_t> triangles;
+  const auto image = draw_sheet(model, command.sheet, *camera, style, *painter, triangles);
+  if (auto written = Painter::write(image, output_path(command.output)); !written)
+    return tl::unexpected(written.error());
+  report.text("kind", "kind", ModelKind<Model>::kName);
+  report.set("row_triangles", triangles);
+  report.set("width", image->width);
+  report.set("height", image->height);
+  report.row("size", std::to_string(image->width) + " x " + std::to_string(image->height));
+  return kDone;
 }
 
 template <class Model>
@@ -203,7 +242,12 @@ CommandResult render_model(const RenderCommand& command, const std::filesystem::
                            Report& report) {
   const auto any = read_any_model(input);
   if (!any) return tl::unexpected(any.error());
-  return std::visit([&](const auto& model) { return render_level(command, model, report); }, *any);
+  return std::visit(
+      [&](const auto& model) {
+        return command.sheet.empty() ? render_level(command, model, report)
+                                     : render_sheet(command, model, report);
+      },
+      *any);
 }
 
 void check_morph(const RenderCommand& command) {
@@ -272,6 +316,22 @@ void add_render(CLI::App& app, CommandRunner& runner) {
       ->type_name("B");
   command->add_flag("--arrays", options->arrays,
                     "Patch trees: draw index arrays, not commands over constant indices");
+  CLI::Option* const sheet =
+      command
+          ->add_option(
+              "--sheet", options->sheet.fractions,
+              "Models with poses: one picture of many, a row for each of these parts of the "
+              "vertices, a column for each shape from that at rest through all poses; "
+              "--size is that of a cell")
+          ->delimiter(',')
+          ->check(CLI::Range(0.0f, 1.0f))
+          ->check(finite_number())
+          ->type_name("F,...");
+  command->add_option("--columns", options->sheet.columns, "With --sheet: how many shapes")
+      ->check(CLI::Range(1u, 64u))
+      ->needs(sheet)
+      ->capture_default_str()
+      ->type_name("N");
   command->add_flag("--no-occlusion", options->no_occlusion, "Without darkened creases");
   command->add_option("--supersampling", options->supersampling, "Shaded samples per axis")
       ->check(CLI::Range(1, 8))
@@ -281,6 +341,8 @@ void add_render(CLI::App& app, CommandRunner& runner) {
   runner.attach(*command, options->common, [options] {
     check_level_options(options->level);
     check_morph(*options);
+    if (!options->sheet.empty() && (!options->level.empty() || !options->pose.empty()))
+      wrong_usage("--sheet shows levels and poses of its own: leave out LEVEL, --pose and --blend");
     return run_render(*options);
   });
 }

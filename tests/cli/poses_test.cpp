@@ -159,6 +159,28 @@ TEST_F(PoseFiles, AnimationsAreSampledAndKept) {
   EXPECT_FALSE(frozen->mesh.has_skin());
 }
 
+TEST_F(PoseFiles, PicturesOfPosesAndSheets) {
+  ASSERT_TRUE(write_mesh(test::with_poses(test::icosphere(320), 2, 1), path("a.glb")));
+  ASSERT_EQ(run_tool({"build", "vdpm", path("a.glb"), "-o", path("m.vfm")}).exit_code, 0);
+  const auto render = [&](std::vector<std::string> options) {
+    options.insert(options.begin(),
+                   {"render", path("m.vfm"), "-o", path("p.png"), "--size", "64x48", "--json"});
+    return run_tool(options);
+  };
+  const ToolResult posed = render({"--lod", "1", "--pose", "1"});
+  ASSERT_EQ(posed.exit_code, 0) << posed.err;
+  const std::string first = test::bytes_of(path("p.png"));
+  ASSERT_EQ(render({"--lod", "1"}).exit_code, 0);
+  EXPECT_NE(test::bytes_of(path("p.png")), first);
+  const ToolResult sheet = render({"--sheet", "1,0.5,0.1", "--columns", "4"});
+  ASSERT_EQ(sheet.exit_code, 0) << sheet.err;
+  EXPECT_EQ(sheet.json()["width"], 4 * 64);
+  EXPECT_EQ(sheet.json()["height"], 3 * 48);
+  EXPECT_EQ(sheet.json()["row_triangles"][0], 320);
+  EXPECT_EQ(render({"--sheet", "1", "--lod", "1"}).exit_code, 2);
+  EXPECT_EQ(render({"--lod", "1", "--columns", "4"}).exit_code, 2);
+}
+
 TEST_F(PoseFiles, MovedVerticesHaveNoPoses) {
   ASSERT_TRUE(write_mesh(test::with_poses(test::icosphere(80), 1, 1), path("a.glb")));
   const ToolResult result =
