@@ -168,6 +168,8 @@ TEST_F(PoseFiles, PicturesOfPosesAndSheets) {
     return run_tool(options);
   };
   const ToolResult posed = render({"--lod", "1", "--pose", "1"});
+  if (posed.exit_code != 0 && posed.err.find("OpenGL") != std::string::npos)
+    GTEST_SKIP() << "no OpenGL here: " << posed.err;
   ASSERT_EQ(posed.exit_code, 0) << posed.err;
   const std::string first = test::bytes_of(path("p.png"));
   ASSERT_EQ(render({"--lod", "1"}).exit_code, 0);
