@@ -110,7 +110,8 @@ class MorphWalk {
     constexpr std::uint32_t kPerLevel = 24, kLevels = 10;
     double extraction = 0, drawing = 0, greatest = 0;
     for (std::uint32_t i = 0; i < kPerLevel * kLevels; ++i) {
-      const float fraction = 1 - static_cast<float>(i / kPerLevel) / kLevels;
+      const std::uint32_t coarser = i / kPerLevel;
+      const float fraction = 1 - static_cast<float>(coarser) / kLevels;
       const std::uint32_t frame = i % frames_;
       const double seconds = extract(frame, model_->level_for_fraction(fraction));
       extraction += seconds;
