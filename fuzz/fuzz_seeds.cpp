@@ -10,6 +10,7 @@
 #include <varifold/mesh/generators.h>
 #include <varifold/mesh/rig.h>
 #include <varifold/models/lodstrips/build.h>
+#include <varifold/models/lodstrips/frame_build.h>
 #include <varifold/models/mts/build.h>
 #include <varifold/models/patch_tree/build.h>
 #include <varifold/models/patch_tree/encoding.h>
@@ -193,6 +194,8 @@ bool put_strips(const std::filesystem::path& folder) {
       done = put(folder / "lodstrips" / (name + std::string("_") + std::string(form_name(form))),
                  encode_lod_strips(build_lod_strips(detailed, form, strips))) &&
              done;
+    const auto frames = build_frame_strips(mesh);
+    done = frames && put(folder / "framestrips" / name, encode_frame_strips(frames->model)) && done;
     done = put(folder / "strips" / name,
                encode_strip_framework(build_strip_framework(detailed, strips))) &&
            done;

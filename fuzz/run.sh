@@ -6,7 +6,7 @@ set -eu
 cd "$(dirname "$0")/.."
 seconds=${1:-60}
 [ $# -eq 0 ] || shift
-targets=${*:-ply obj stl gltf glb container progressive_mesh mts lodstrips strips vdpm patch_tree camera_path deformation}
+targets=${*:-ply obj stl gltf glb container progressive_mesh mts lodstrips framestrips strips vdpm patch_tree camera_path deformation}
 sh cmake/build_preset.sh fuzz fuzz_seeds $(printf "fuzz_%s " $targets)
 
 build=build/fuzz
