@@ -46,7 +46,7 @@ Result<Image8> draw_sheet(const std::shared_ptr<const Model>& model, const Conta
       DrawStyle posed = style;
       posed.pose.weights = weights;
       const Painter::Item item{lists.of(instance).list, posed};
-      const auto cell = painter.picture(std::span(&item, 1), camera);
+      auto cell = painter.picture(std::span(&item, 1), camera);
       if (!cell) return cell;
       paste(*cell, column * camera.width, row * camera.height, whole);
     }
