@@ -1,6 +1,7 @@
 // Based on: [GarlandHeckbert1997]; [SteinitzRademacher1934] for why it ends in a tetrahedron.
 #include <varifold/morph/ring_decimation.h>
 #include <varifold/simplify/quadric.h>
+#include <algorithm>
 #include <queue>
 #include <vector>
 
@@ -24,31 +25,44 @@ struct Candidate {
 
 class RingDecimation {
  public:
-  RingDecimation(RingMesh& mesh, std::span<const Vec3> positions)
+  RingDecimation(RingMesh& mesh, std::span<const Vec3> positions, const DecimationOptions& options)
       : mesh_(mesh),
+        options_(options),
         positions_(positions),
         quadrics_(positions.size()),
         stamps_(positions.size(), 0) {}
 
   CollapseRecord run() {
+    const std::uint32_t least = std::max(options_.least, 4u);
     const auto count = static_cast<std::uint32_t>(positions_.size());
-    for (std::uint32_t v = 0; v < count; ++v) quadrics_[v] = quadric_of(v);
-    for (std::uint32_t v = 0; v < count; ++v) push_best(v);
+    for (std::uint32_t v = 0; v < count; ++v)
+      if (mesh_.is_live(v)) quadrics_[v] = quadric_of(v);
     CollapseRecord record;
-    while (mesh_.vertex_count() > 4 && !queue_.empty()) {
-      const Candidate best = queue_.top();
-      queue_.pop();
-      if (best.stamp != stamps_[best.vertex]) continue;
-      // A collapse gives its target new neighbours, which may be those of a candidate, too.
-      if (mesh_.can_collapse(best.vertex, best.target))
-        step(best, record);
-      else
-        push_best(best.vertex);
+    const bool has_holds = !options_.holds.empty();
+    go_on(has_holds ? std::max(least, options_.late) : least, record);
+    if (has_holds) {
+      most_ = Hold::kLate;
+      go_on(least, record);
     }
     return record;
   }
 
  private:
+  void go_on(std::uint32_t least, CollapseRecord& record) {
+    for (std::uint32_t v = 0; v < positions_.size(); ++v)
+      if (mesh_.is_live(v)) push_best(v);
+    while (mesh_.vertex_count() > least && !queue_.empty()) {
+      const Candidate best = queue_.top();
+      queue_.pop();
+      if (best.stamp != stamps_[best.vertex]) continue;
+      // A collapse gives its target new neighbours, which may be those of a candidate, too.
+      if (is_allowed(best.vertex, best.target))
+        step(best, record);
+      else
+        push_best(best.vertex);
+    }
+  }
+
   Quadric quadric_of(std::uint32_t vertex) const {
     Quadric quadric;
     const auto ring = mesh_.ring(vertex);
@@ -64,6 +78,7 @@ class RingDecimation {
 
   void push_best(std::uint32_t vertex) {
     ++stamps_[vertex];
+    if (!options_.holds.empty() && options_.holds[vertex] > most_) return;
     Candidate best{0, vertex, kNone, stamps_[vertex]};
     for (const std::uint32_t target : mesh_.ring(vertex)) {
       const Vec3 way = positions_[target] - positions_[vertex];
@@ -72,7 +87,7 @@ class RingDecimation {
       const float excess = valence > kFreeValence ? valence - kFreeValence : 0.0f;
       const float cost = (quadrics_[vertex].at(way) + 1e-30f) * (1 + excess * excess);
       if (best.target != kNone && !(cost < best.cost)) continue;
-      if (!mesh_.can_collapse(vertex, target)) continue;
+      if (!is_allowed(vertex, target)) continue;
       best.cost = cost, best.target = target;
     }
     if (best.target != kNone) queue_.push(best);
@@ -86,7 +101,25 @@ class RingDecimation {
     for (const std::uint32_t v : record.ring(record.steps.back())) push_best(v);
   }
 
+  [[nodiscard]] bool is_allowed(std::uint32_t vertex, std::uint32_t target) const {
+    return mesh_.can_collapse(vertex, target) && (options_.points.empty() || sees(vertex, target));
+  }
+
+  // Whether the triangles that `target` gets are positive.
+  [[nodiscard]] bool sees(std::uint32_t vertex, std::uint32_t target) const {
+    const auto ring = mesh_.ring(vertex);
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const std::uint32_t p = ring[i], q = ring[i + 1 == ring.size() ? 0 : i + 1];
+      if (p == target || q == target) continue;
+      if (orientation(options_.points[target], options_.points[p], options_.points[q]) <= 0)
+        return false;
+    }
+    return true;
+  }
+
   RingMesh& mesh_;
+  const DecimationOptions& options_;
+  Hold most_ = Hold::kFree;  // that may go now
   std::span<const Vec3> positions_;
   std::vector<Quadric> quadrics_;
   std::vector<std::uint32_t> stamps_;
@@ -95,8 +128,9 @@ class RingDecimation {
 
 }  // namespace
 
-CollapseRecord decimate_to_tetrahedron(RingMesh& mesh, std::span<const Vec3> positions) {
-  return RingDecimation(mesh, positions).run();
+CollapseRecord decimate(RingMesh& mesh, std::span<const Vec3> positions,
+                        const DecimationOptions& options) {
+  return RingDecimation(mesh, positions, options).run();
 }
 
 }  // namespace varifold
