@@ -48,7 +48,9 @@ std::vector<test::NamedSequence> turned_sequences(float angle) {
 
 TEST(ShapeBounds, BallsAndConesHoldStarsInEveryBlend) {
   std::uint64_t seed = 0, narrow = 0;
-  for (const auto& [name, detailed] : posed_sequences()) {
+  std::vector<test::NamedSequence> sequences = posed_sequences();
+  for (test::NamedSequence& turned : turned_sequences(0.9f)) sequences.push_back(std::move(turned));
+  for (const auto& [name, detailed] : sequences) {
     SCOPED_TRACE(name);
     const auto bounds = test::bounds_of(detailed);
     const std::vector<Vec3> centers = shape_centers(detailed);
