@@ -12,10 +12,6 @@ namespace varifold::check {
 /// Weights of poses: each alone, then seeded blends of all, >= 0 with a sum of at most 1.
 [[nodiscard]] std::vector<std::vector<float>> checked_weights(std::size_t poses);
 
-/// The mesh in a blend of its poses, without poses, normals and skin.
-[[nodiscard]] TriangleMesh mesh_in_blend(const TriangleMesh& mesh,
-                                         const std::vector<float>& weights);
-
 /// Compares levels with the full one in every pose, and their errors also in blends.
 class ShapeChecker {
  public:

@@ -7,6 +7,7 @@
 #include <array>
 #include <cassert>
 #include <glm/mat3x3.hpp>
+#include <utility>
 
 namespace varifold {
 namespace {
@@ -78,6 +79,23 @@ PosedVertices skin_vertices(const TriangleMesh& mesh, std::span<const glm::mat4>
   PosedVertices result{mesh.positions, mesh.normals};
   skin_vertices(mesh.skin, joint_matrices, result);
   return result;
+}
+
+TriangleMesh moved_mesh(const TriangleMesh& mesh, PosedVertices vertices) {
+  TriangleMesh result;
+  result.positions = std::move(vertices.positions);
+  result.normals = std::move(vertices.normals);
+  result.texcoords = mesh.texcoords;
+  result.colors = mesh.colors;
+  result.indices = mesh.indices;
+  result.ranges = mesh.ranges;
+  result.materials = mesh.materials;
+  result.images = mesh.images;
+  return result;
+}
+
+TriangleMesh blended_mesh(const TriangleMesh& mesh, std::span<const float> weights) {
+  return moved_mesh(mesh, blend_poses(mesh, weights));
 }
 
 }  // namespace varifold

@@ -32,4 +32,9 @@ void skin_vertices(std::span<const JointWeights> skin, std::span<const glm::mat4
 [[nodiscard]] PosedVertices skin_vertices(const TriangleMesh& mesh,
                                           std::span<const glm::mat4> joint_matrices);
 
+/// The mesh with its vertices there, a mesh of its own: without poses, skin and rig. O(mesh).
+[[nodiscard]] TriangleMesh moved_mesh(const TriangleMesh& mesh, PosedVertices vertices);
+/// The mesh in the blend of its poses, in the same way.
+[[nodiscard]] TriangleMesh blended_mesh(const TriangleMesh& mesh, std::span<const float> weights);
+
 }  // namespace varifold
