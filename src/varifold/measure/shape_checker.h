@@ -19,6 +19,8 @@ class ShapeChecker {
   /// `full` is the full level; without poses nothing is ever found.
   ShapeChecker(const TriangleMesh& full, const ModelPoints& points, int threads);
 
+  [[nodiscard]] bool empty() const { return weights_.empty(); }
+
   /// Orientation and topology in each pose: as FullLevel::check_surface().
   void check_surface(const TriangleMesh& mesh, const WeldMap& weld, PlaceFaults& faults,
                      std::uint32_t place) const;
