@@ -96,6 +96,30 @@ TEST(FrontGeomorphs, MoveAsTheRuleSays) {
   EXPECT_GT(turns, 1000);
 }
 
+// A pose that is an affine image of the mesh at rest is one of what is drawn, on any way.
+TEST(FrontGeomorphs, MovePosesAlong) {
+  TriangleMesh mesh = icosphere(2000);
+  mesh.normals.clear();
+  const glm::mat3 linear(1.2f, 0.1f, 0.3f, -0.2f, 0.9f, 0, 0.1f, 0.4f, 1);
+  const auto image = [&](const Vec3& p) { return linear * p + Vec3(3, 1, 2); };
+  Pose pose;
+  for (const Vec3& p : mesh.positions) pose.positions.push_back(image(p));
+  mesh.poses.push_back(pose);
+  const auto model = std::make_shared<const ViewDependentMesh>(
+      build_view_dependent_mesh(simplify(mesh)->detailed));
+  ViewDependentInstance moving(model);
+  RestlessCamera camera(*model, 11);
+  std::uint32_t moves = 0;
+  for (int frame = 0; frame < 40; ++frame) {
+    moving.adapt(camera.next(), {1, kNone}, with_morphs(6));
+    moves += moving.moving_vertices();
+    const DrawList list = moving.draw_list();
+    for (const std::uint32_t v : list.indices)
+      ASSERT_LE(glm::length(list.poses[0].positions[v] - image(list.positions[v])), 1e-5f);
+  }
+  EXPECT_GT(moves, 100u);
+}
+
 // From where a vertex, or what stood for it, was drawn in the frame before.
 TEST(FrontGeomorphs, NoVertexMovesFurtherThanItsPart) {
   for (const NamedVdpm& named : all_vdpms()) {
