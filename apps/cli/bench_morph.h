@@ -30,10 +30,11 @@ inline constexpr double kFramesPerSecond = 24;
 template <class Model>
 class MorphWalk {
  public:
-  MorphWalk(const std::shared_ptr<const Model>& model, std::uint32_t frames, BenchDevice* device)
+  MorphWalk(const std::shared_ptr<const Model>& model, std::uint32_t frames,
+            const ListOptions& lists, BenchDevice* device)
       : model_(model),
         instance_(model),
-        lists_(model, ListOptions{.arrays = true}),
+        lists_(model, lists),
         frames_(std::max(2u, frames)),
         device_(device) {
     for (std::uint32_t i = 0; i < frames_; ++i)
@@ -80,7 +81,7 @@ class MorphWalk {
     const double seconds = watch.seconds();
     extraction_ += seconds;
     ++steps_;
-    indices_ += submitted_indices(list_.list).indices;
+    indices_ += submitted_indices(list_).indices;
     collapses_ += level > before_ ? level - before_ : before_ - level;
     before_ = level;
     return seconds;
