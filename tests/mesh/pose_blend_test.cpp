@@ -4,6 +4,7 @@
 #include <tests/support/meshes.h>
 #include <tests/support/rigged_meshes.h>
 #include <varifold/base/random.h>
+#include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
 
@@ -85,6 +86,54 @@ TEST(PoseBlend, MakesAMeshThatMovesNoMore) {
     EXPECT_EQ(moved.materials.size(), mesh.materials.size());
     EXPECT_TRUE(moved.poses.empty() && moved.skin.empty() && !moved.rig);
   }
+}
+
+// By the weight of every joint; of more than four the greatest.
+TEST(MixJoints, IsTheMeanOfTheWeights) {
+  Random random(4);
+  const auto any = [&](std::uint32_t joints) {
+    JointWeights made;
+    float left = 1;
+    for (std::size_t i = 0; i < 4; ++i) {
+      made.joints[i] = static_cast<std::uint16_t>(i * joints + random.below(joints));
+      made.weights[i] = i == 3 ? left : left * static_cast<float>(random.uniform());
+      left -= made.weights[i];
+    }
+    return made;
+  };
+  const auto weight_of = [](const JointWeights& followed, std::uint16_t joint) {
+    float sum = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+      if (followed.joints[i] == joint) sum += followed.weights[i];
+    return sum;
+  };
+  int cut = 0;
+  for (int round = 0; round < 2000; ++round) {
+    const std::uint32_t joints = 1 + random.below(3);  // of each of the four places
+    const JointWeights a = any(joints), b = any(joints);
+    const float part = round % 5 == 0 ? 0 : static_cast<float>(random.uniform());
+    const JointWeights mixed = mix_joints(a, b, part);
+    std::vector<float> expected;
+    for (std::uint16_t joint = 0; joint < 4 * joints; ++joint)
+      expected.push_back((1 - part) * weight_of(a, joint) + part * weight_of(b, joint));
+    std::vector<float> greatest = expected;
+    std::sort(greatest.rbegin(), greatest.rend());
+    float kept = 0;
+    for (std::size_t i = 0; i < 4 && i < greatest.size(); ++i) kept += greatest[i];
+    cut += kept < 0.999f ? 1 : 0;
+    float sum = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      sum += mixed.weights[i];
+      if (mixed.weights[i] > 0) {
+        ASSERT_NEAR(mixed.weights[i], expected[mixed.joints[i]] / kept, 1e-5);
+        ASSERT_GE(expected[mixed.joints[i]], greatest[3] - 1e-6);
+      } else {
+        ASSERT_EQ(mixed.joints[i], 0);
+      }
+    }
+    ASSERT_NEAR(sum, 1, 1e-5);
+  }
+  EXPECT_GT(cut, 100);
 }
 
 TEST(SkinVertices, MoveByTheBlendOfMatrices) {
