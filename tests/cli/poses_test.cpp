@@ -109,7 +109,9 @@ TEST_P(Posed, TheMorphTestTellsSharesOfFrames) {
   ASSERT_EQ(bench["constant_levels"].size(), 10u);
   EXPECT_EQ(bench["constant_levels"][0]["triangles"], 2000);
   EXPECT_LT(bench["constant_levels"][9]["triangles"], 500);
+  EXPECT_EQ(bench["constant_levels"][3]["frames_ms"].size(), 9u);
   EXPECT_EQ(bench["level_every_24_frames"]["frames"], 240);
+  EXPECT_EQ(bench["level_every_24_frames"]["levels"].size(), 10u);
   EXPECT_GT(bench["seconds_extraction"], 0);
   (void)make_model("torus", "60");
   const ToolResult still = run_tool({"bench", path("m.vfm"), "--test", "morph"});
