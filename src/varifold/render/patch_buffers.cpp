@@ -55,7 +55,7 @@ Result<std::size_t> PatchBuffers::create(const PatchDrawList& list) {
   vertices.positions = list.positions;
   vertices.normals = list.normals;
   vertices.poses = list.poses;
-  const auto posed = poses_.update(vertices);
+  auto posed = poses_.update(vertices);
   if (!posed) return posed;
   uploaded += *posed;
   vertex_count_ = list.positions.size();
