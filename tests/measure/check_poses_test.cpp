@@ -66,7 +66,7 @@ DetailedMesh turned_square() {
 
 // A flat strip that the pose bends into a ring within its plane, by a sequence that heeds the shape
 // at rest alone: what is left of the strip turns over in the pose.
-DetailedMesh ring_by_rest() {
+TriangleMesh ring() {
   TriangleMesh mesh = test::grid(40, 6);
   Pose ring;
   for (const Vec3& p : mesh.positions) {
@@ -74,9 +74,12 @@ DetailedMesh ring_by_rest() {
     ring.positions.emplace_back(radius * std::sin(angle), radius * std::cos(angle), 0.0f);
   }
   mesh.poses.push_back(ring);
+  return mesh;
+}
+DetailedMesh ring_by_rest() {
   SimplifyOptions options;
   options.poses.poses_order = false;
-  return simplify(mesh, options)->detailed;
+  return simplify(ring(), options)->detailed;
 }
 
 TEST(CheckPoses, AllGroupsAreSound) {
@@ -146,6 +149,18 @@ TEST(CheckPoses, FindsPatchesThatAreWrongInOnePoseOrBetweenThem) {
   data = sound;
   for (Vec3& p : data.vertices.poses[1].positions) p.x = -p.x;
   EXPECT_FALSE(faults_of(data).empty());
+}
+
+// Borders that are switched as the shape at rest allows.
+TEST(CheckPoses, FindsPatchesThatTurnInOnePose) {
+  const TriangleMesh mesh = test::with_poses(planet({{.triangles = 3000}}), 2, 7, 0.3f);
+  PatchTreeOptions options;
+  options.triangles_per_patch = 16;
+  options.poses.poses_order = false;
+  const Kinds faults = faults_of(build_patch_tree(mesh, options)->tree.data());
+  EXPECT_TRUE(faults.count("pose_turned_triangle"));
+  EXPECT_FALSE(faults_of(tree_of(mesh)).count("pose_turned_triangle"));
+  for (const std::string& kind : faults) EXPECT_TRUE(kind.starts_with("pose_")) << kind;
 }
 
 TEST(CheckPoses, FindsAFrameOfAnotherShape) {

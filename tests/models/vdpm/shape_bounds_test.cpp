@@ -153,6 +153,24 @@ TEST(ShapeBounds, DoNotDependOnThreads) {
   EXPECT_EQ(model(1), model(3));
 }
 
+// Of a box that holds all places, so that balls are no greater than they need be.
+TEST(ShapeBounds, CentersAreInTheMiddleOfAllPlaces) {
+  for (const auto& [name, detailed] : turned_sequences(1.5f)) {
+    SCOPED_TRACE(name);
+    const std::vector<Vec3> centers = shape_centers(detailed);
+    ASSERT_EQ(centers.size(), detailed.sequence.step_count());
+    for (std::uint32_t k = 0; k < centers.size(); ++k)
+      for (int axis = 0; axis < 3; ++axis) {
+        float lower = 1e30f, upper = -1e30f;
+        for (const auto& shape : detailed.shapes()) {
+          lower = std::min(lower, shape[detailed.sequence.vertices[k]][axis]);
+          upper = std::max(upper, shape[detailed.sequence.vertices[k]][axis]);
+        }
+        ASSERT_NEAR(centers[k][axis], 0.5f * (lower + upper), 1e-5f);
+      }
+  }
+}
+
 TEST(ShapeBounds, CentersSurviveTheFile) {
   for (const auto& [name, detailed] : posed_sequences()) {
     SCOPED_TRACE(name);
