@@ -89,8 +89,8 @@ class OverlayReduction {
   std::uint32_t merge_all() {
     std::uint32_t merged = 0;
     for (std::uint32_t point = point_count_; point-- > 0;) {
-      for (const auto& spoke : stars_.gather(point)) {
-        const std::uint32_t target = spoke.a;
+      (void)stars_.gather(point);
+      for (const std::uint32_t target : stars_.targets()) {
         if (!is_nothing(shapes_[0], point, target) || !is_nothing(shapes_[1], point, target) ||
             !stars_.can_collapse(point, target))
           continue;
@@ -109,14 +109,14 @@ class OverlayReduction {
 
   void reduce_at(std::uint32_t point, float part) {
     const auto star = stars_.gather(point);
-    if (star.size() < 3 || star.size() > kLargestStar) return;
+    const OverlayStars::Rim& rim = stars_.rim();
+    if ((!rim && star.size() < 3) || star.empty() || star.size() > kLargestStar) return;
     for (int s = 0; s < 2; ++s) old_[s] = look_at(shapes_[s], point, star);
     std::uint32_t best = kNone;
     float best_shape = -1;
-    std::array<float, 2> best_error{0, 0};
-    for (const auto& spoke : star) {
-      const std::uint32_t target = spoke.a;
-      std::array<float, 2> error{0, 0};
+    std::array<float, 2> best_error{0, 0}, best_of_rim{0, 0};
+    for (const std::uint32_t target : stars_.targets()) {
+      std::array<float, 2> error{0, 0}, of_rim{0, 0};
       float shape = 1;
       bool is_legal = true;
       for (int s = 0; s < 2 && is_legal; ++s) {
@@ -124,15 +124,20 @@ class OverlayReduction {
         is_legal = worst >= 0;
         shape = std::min(shape, worst);
         if (!is_legal || shape <= best_shape) break;
-        error[s] = error_after(s, point, target, star, part);
+        if (rim) of_rim[s] = rim_error_after(s, point, rim);
+        error[s] = std::max(of_rim[s], error_after(s, point, target, star, part));
         is_legal = error[s] <= part * shapes_[s].tolerance;
       }
       if (!is_legal || shape <= best_shape || !stars_.can_collapse(point, target)) continue;
-      best = target, best_shape = shape, best_error = error;
+      best = target, best_shape = shape, best_error = error, best_of_rim = of_rim;
     }
     if (best == kNone) return;
-    for (int s = 0; s < 2; ++s)
+    for (int s = 0; s < 2; ++s) {
       for (const auto& spoke : star) shapes_[s].error[spoke.corner / 3] = best_error[s];
+      if (rim)
+        for (const std::uint32_t triangle : rim.triangles)
+          shapes_[s].error[triangle] = best_of_rim[s];
+    }
     stars_.collapse(point, best);
   }
 
@@ -180,6 +185,22 @@ class OverlayReduction {
     return worst;
   }
 
+  // The square of the distance from a point of the boundary to the edge that takes its place.
+  [[nodiscard]] float to_new_rim(int s, std::uint32_t point, const OverlayStars::Rim& rim) const {
+    const auto& positions = shapes_[s].positions;
+    const Vec3 &p = positions[rim.points[0]], &q = positions[rim.points[1]];
+    return distance2(p - positions[point], q - positions[point], q - positions[point]);
+  }
+
+  // How far the boundary may be from that of the input after its collapse along itself; the
+  // triangles of the fan keep that.
+  [[nodiscard]] float rim_error_after(int s, std::uint32_t point,
+                                      const OverlayStars::Rim& rim) const {
+    const std::vector<float>& error = shapes_[s].error;
+    return std::max(error[rim.triangles[0]], error[rim.triangles[1]]) +
+           std::sqrt(to_new_rim(s, point, rim));
+  }
+
   // How far the surface around may be from the input after the collapse; infinite as soon as it is
   // too much. Judged where surfaces part most: at the point that goes, and along new edges.
   [[nodiscard]] float error_after(int s, std::uint32_t point, std::uint32_t target, Star star,
@@ -193,6 +214,8 @@ class OverlayReduction {
     if (left < 0) return kTooMuch;
     const Vec3 &center = shape.positions[point], &apex = shape.positions[target];
     float nearest = glm::dot(apex - center, apex - center);
+    if (const OverlayStars::Rim& rim = stars_.rim())
+      nearest = std::min(nearest, to_new_rim(s, point, rim));
     for (const auto& spoke : star)
       if (spoke.a != target && spoke.b != target)
         nearest = std::min(nearest, distance2(apex - center, shape.positions[spoke.a] - center,

@@ -9,6 +9,8 @@
 #include <varifold/morph/repair_sphere.h>
 #include <varifold/morph/sphere_triangulation.h>
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <numeric>
 #include <type_traits>
 #include <utility>
@@ -155,17 +157,37 @@ class SphereRepair {
 
   void close_holes() {
     std::vector<bool> is_closed(corners_.size(), false);
-    std::vector<std::uint32_t> loop;
+    std::vector<std::vector<std::uint32_t>> loops;
     const auto count = static_cast<std::uint32_t>(corners_.size());
     for (std::uint32_t first = 0; first < count; ++first) {
       if (opposite_[first] != kNone || is_closed[first]) continue;
-      loop.clear();
+      loops.emplace_back();
       for (std::uint32_t h = first; !is_closed[h]; h = next_open(h)) {
         is_closed[h] = true;
-        loop.push_back(h);
+        loops.back().push_back(h);
       }
-      if (loop.size() >= 3 && loop.size() <= options_.max_hole_edges) close_hole(loop);
     }
+    const std::size_t kept = options_.keep_longest_hole ? longest_of(loops) : loops.size();
+    for (std::size_t i = 0; i < loops.size(); ++i)
+      if (i != kept && loops[i].size() >= 3 && loops[i].size() <= options_.max_hole_edges)
+        close_hole(loops[i]);
+  }
+
+  std::size_t longest_of(const std::vector<std::vector<std::uint32_t>>& loops) {
+    std::size_t longest = loops.size();
+    double most = 0;
+    for (std::size_t i = 0; i < loops.size(); ++i) {
+      double length = 0;
+      for (const std::uint32_t h : loops[i])
+        length += glm::distance(mesh_.positions[corners_[h]],
+                                mesh_.positions[corners_[next_half_edge(h)]]);
+      if (length > most) most = length, longest = i;
+    }
+    if (longest == loops.size()) return longest;
+    result_.report.open_edges = static_cast<std::uint32_t>(loops[longest].size());
+    const double area = surface_area(result_.mesh);
+    if (area > 0) result_.report.openness = most / std::sqrt(4 * std::numbers::pi * area);
+    return longest;
   }
 
   // The open half-edge that begins where `open` ends, around the fan there.
@@ -202,13 +224,13 @@ class SphereRepair {
   }
 
   // Where two pairs of triangles hang together along one edge whose ends were not parted, all but
-  // the first pair get a vertex in the middle of theirs.
+  // the first pair get a vertex in the middle of theirs. An edge of the border may be one of two.
   void split_double_edges() {
     using Edge = std::pair<std::uint32_t, std::uint32_t>;
     std::vector<std::pair<Edge, std::uint32_t>> edges;
     for (std::uint32_t h = 0; h < opposite_.size(); ++h) {
       const std::uint32_t from = point_of_[h], to = point_of_[next_half_edge(h)];
-      if (opposite_[h] != kNone && h < opposite_[h])
+      if (h < opposite_[h] && (opposite_[h] != kNone || options_.keep_longest_hole))
         edges.push_back({{std::min(from, to), std::max(from, to)}, h});
     }
     std::sort(edges.begin(), edges.end());
@@ -216,8 +238,11 @@ class SphereRepair {
     for (std::size_t i = 1; i < edges.size(); ++i) {
       if (edges[i].first != edges[i - 1].first) continue;
       const std::uint32_t h = edges[i].second, other = opposite_[h];
-      const Vec3 nudge = 0.5f * kNudge * (opposite_corner(h) + opposite_corner(other));
-      for (const std::uint32_t side : {h, other}) middle_of[side] = add_middle(side, nudge);
+      const bool is_open = other == kNone;
+      const Vec3 nudge =
+          0.5f * kNudge * (opposite_corner(h) + opposite_corner(is_open ? h : other));
+      for (const std::uint32_t side : {h, other})
+        if (side != kNone) middle_of[side] = add_middle(side, nudge);
       ++result_.report.split_points;
     }
     if (result_.report.split_points > 0) cut_triangles(middle_of);
@@ -324,7 +349,7 @@ Result<RepairedSphere> repair_to_sphere(const TriangleMesh& mesh, const RepairOp
   auto repaired = SphereRepair(at_rest, options).run();
   if (!repaired) return repaired;
   repaired = cut_handles(std::move(*repaired), options);
-  if (signed_volume(repaired->mesh) < 0) {
+  if (repaired->report.open_edges == 0 && signed_volume(repaired->mesh) < 0) {
     turn_inside_out(repaired->mesh);
     repaired->report.turned = true;
   }

@@ -1,6 +1,7 @@
 // Based on: [GarlandHeckbert1997]; [SteinitzRademacher1934] for why it ends in a tetrahedron.
 #include <varifold/morph/ring_decimation.h>
 #include <varifold/simplify/quadric.h>
+#include <algorithm>
 #include <queue>
 #include <vector>
 
@@ -24,18 +25,19 @@ struct Candidate {
 
 class RingDecimation {
  public:
-  RingDecimation(RingMesh& mesh, std::span<const Vec3> positions)
+  RingDecimation(RingMesh& mesh, std::span<const Vec3> positions, const std::vector<bool>& is_fixed)
       : mesh_(mesh),
         positions_(positions),
+        is_fixed_(is_fixed),
         quadrics_(positions.size()),
         stamps_(positions.size(), 0) {}
 
-  CollapseRecord run() {
+  CollapseRecord run(std::uint32_t least) {
     const auto count = static_cast<std::uint32_t>(positions_.size());
     for (std::uint32_t v = 0; v < count; ++v) quadrics_[v] = quadric_of(v);
     for (std::uint32_t v = 0; v < count; ++v) push_best(v);
     CollapseRecord record;
-    while (mesh_.vertex_count() > 4 && !queue_.empty()) {
+    while (mesh_.vertex_count() > least && !queue_.empty()) {
       const Candidate best = queue_.top();
       queue_.pop();
       if (best.stamp != stamps_[best.vertex]) continue;
@@ -62,10 +64,16 @@ class RingDecimation {
     return quadric;
   }
 
+  [[nodiscard]] bool is_fixed(std::uint32_t vertex) const {
+    return !is_fixed_.empty() && is_fixed_[vertex];
+  }
+
   void push_best(std::uint32_t vertex) {
+    if (is_fixed(vertex)) return;
     ++stamps_[vertex];
     Candidate best{0, vertex, kNone, stamps_[vertex]};
     for (const std::uint32_t target : mesh_.ring(vertex)) {
+      if (is_fixed(target)) continue;
       const Vec3 way = positions_[target] - positions_[vertex];
       const auto valence =
           static_cast<float>(mesh_.ring(vertex).size() + mesh_.ring(target).size()) - 4;
@@ -88,6 +96,7 @@ class RingDecimation {
 
   RingMesh& mesh_;
   std::span<const Vec3> positions_;
+  const std::vector<bool>& is_fixed_;
   std::vector<Quadric> quadrics_;
   std::vector<std::uint32_t> stamps_;
   std::priority_queue<Candidate> queue_;
@@ -96,7 +105,14 @@ class RingDecimation {
 }  // namespace
 
 CollapseRecord decimate_to_tetrahedron(RingMesh& mesh, std::span<const Vec3> positions) {
-  return RingDecimation(mesh, positions).run();
+  const std::vector<bool> none;
+  return RingDecimation(mesh, positions, none).run(4);
+}
+
+CollapseRecord decimate_to_cone(RingMesh& mesh, std::span<const Vec3> positions,
+                                const std::vector<bool>& is_fixed) {
+  const auto fixed = std::count(is_fixed.begin(), is_fixed.end(), true);
+  return RingDecimation(mesh, positions, is_fixed).run(static_cast<std::uint32_t>(fixed) + 1);
 }
 
 }  // namespace varifold

@@ -3,6 +3,7 @@
 // are exact, and
 //   the overlay is simplified.
 #include <varifold/base/parallel.h>
+#include <varifold/morph/disc_pair.h>
 #include <varifold/morph/feature_warp.h>
 #include <varifold/morph/overlay_mesh.h>
 #include <varifold/morph/overlay_reduction.h>
@@ -57,12 +58,21 @@ class SupermeshBuilder {
   Result<void> check() {
     for (int i = 0; i < 2; ++i) {
       auto surface =
-          as_sphere(*meshes_[i], i == 0 ? "first mesh" : "second mesh", options_.threads);
+          as_sphere_or_disc(*meshes_[i], i == 0 ? "first mesh" : "second mesh", options_.threads);
       if (!surface) return tl::unexpected(std::move(surface.error()));
       surfaces_[i] = std::move(*surface);
       result_.report.input_vertices[i] = static_cast<std::uint32_t>(surfaces_[i].positions.size());
       result_.report.input_triangles[i] = static_cast<std::uint32_t>(surfaces_[i].triangles.size());
     }
+    if (surfaces_[0].is_disc() != surfaces_[1].is_disc())
+      return fail(ErrorKind::kInvalidInput,
+                  surfaces_[0].is_disc()
+                      ? "first mesh: open, with 1 hole, but the second mesh is closed"
+                      : "second mesh: open, with 1 hole, but the first mesh is closed");
+    return check_features();
+  }
+
+  Result<void> check_features() {
     for (const auto& [in_a, in_b] : options_.features) {
       FeaturePoint points{kNone, kNone};
       if (in_a < meshes_[0]->vertex_count()) points.first = surfaces_[0].point_of_vertex[in_a];
@@ -80,7 +90,17 @@ class SupermeshBuilder {
     return {};
   }
 
+  [[nodiscard]] bool of_discs() const { return surfaces_[0].is_disc(); }
+
+  Result<void> lay_discs() {
+    for (std::size_t i = 0; i < 2; ++i)
+      discs_.maps[i].disc = to_disc_mesh(*meshes_[i], surfaces_[i]);
+    return lay_boundaries(discs_, features_);
+  }
+
   Result<void> embed() {
+    if (of_discs())
+      if (auto laid = lay_discs(); !laid) return laid;
     Result<std::vector<SpherePoint>> found[2];
     // The callback belongs to the caller's thread, which maps the first surface.
     std::atomic<bool> is_cancelled = false;
@@ -91,7 +111,10 @@ class SupermeshBuilder {
       return !is_cancelled;
     };
     const auto embed_one = [&](int i, const SphereEmbeddingOptions& embedding) {
-      found[i] = embed_on_sphere(surfaces_[i].indices, surfaces_[i].positions, embedding);
+      const DiscMap& map = discs_.maps[static_cast<std::size_t>(i)];
+      found[i] = of_discs()
+                     ? embed_on_half_sphere(map.disc.surface, map.points, embedding)
+                     : embed_on_sphere(surfaces_[i].indices, surfaces_[i].positions, embedding);
     };
     parallel_both(
         options_.threads, [&] { embed_one(0, loud); }, [&] { embed_one(1, quiet); });
@@ -127,8 +150,29 @@ class SupermeshBuilder {
     return fail(ErrorKind::kFailed, "second mesh: triangles are too small to be turned");
   }
 
+  // Both are closed below after that.
+  Result<void> align_discs() {
+    for (std::size_t i = 0; i < 2; ++i) discs_.maps[i].points = std::move(points_[i]);
+    const auto meeting = bring_together(discs_);
+    if (!meeting) return tl::unexpected(meeting.error());
+    result_.report.moved_b.turn = meeting->shape;
+    result_.report.feature_distance = meeting->feature_distance;
+    shared_ = merge_boundaries(discs_.maps[0], discs_.maps[1]);
+    for (std::size_t i = 0; i < 2; ++i) {
+      CappedDisc disc = capped(std::move(discs_.maps[i]));
+      cut_meshes_[i] = std::move(disc.mesh);
+      meshes_[i] = &cut_meshes_[i];
+      surfaces_[i] = std::move(disc.surface);
+      points_[i] = std::move(disc.points);
+      is_fixed_[i] = std::move(disc.is_fixed);
+    }
+    result_.report.align_seconds = watch_.lap();
+    return {};
+  }
+
   Result<void> align() {
     if (!report(options_.progress, "align", 0.5f)) return cancelled();
+    if (of_discs()) return align_discs();
     if (auto turned = turn(); !turned) return turned;
     if (!features_.empty()) {
       std::vector<Pin> pins;
@@ -146,7 +190,7 @@ class SupermeshBuilder {
     for (int attempt = 0; attempt <= kNudges; ++attempt, nudge *= 4) {
       const SphereTriangulation a(surfaces_[0].indices, points_[0]),
           b(surfaces_[1].indices, points_[1]);
-      const auto crossings = find_crossings(a, b, options_.threads);
+      const auto crossings = find_crossings(a, b, options_.threads, shared_);
       if (!crossings) {
         jitter(map_of(1), nudge, static_cast<std::uint64_t>(attempt) + 1);
         continue;
@@ -201,7 +245,8 @@ class SupermeshBuilder {
   }
 
   MutableSphereMap map_of(int i) {
-    return {surfaces_[i].indices, surfaces_[i].positions, points_[i]};
+    return {surfaces_[i].indices, surfaces_[i].positions, points_[i],
+            of_discs() ? &is_fixed_[i] : nullptr};
   }
 
   const TriangleMesh* meshes_[2];
@@ -209,6 +254,10 @@ class SupermeshBuilder {
   SphereSurface surfaces_[2];
   std::vector<FeaturePoint> features_;  // as points
   std::vector<SpherePoint> points_[2];
+  DiscPair discs_;
+  SharedPoints shared_;         // of discs
+  TriangleMesh cut_meshes_[2];  // discs with the vertices of both boundaries
+  std::vector<bool> is_fixed_[2];
   OverlayTriangles overlay_;
   Stopwatch watch_;
   Supermesh result_;

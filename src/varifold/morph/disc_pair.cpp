@@ -1,0 +1,119 @@
+#include <varifold/morph/disc_pair.h>
+#include <varifold/morph/feature_warp.h>
+#include <varifold/morph/sphere_embedding.h>
+#include <algorithm>
+#include <utility>
+
+namespace varifold {
+namespace {
+
+// Per point its place in the boundary; kNone inside.
+std::vector<std::uint32_t> places_on_boundary(const SphereSurface& surface) {
+  std::vector<std::uint32_t> place(surface.positions.size(), kNone);
+  for (std::uint32_t i = 0; i < surface.boundary.size(); ++i) place[surface.boundary[i]] = i;
+  return place;
+}
+
+// Those on the boundary must come in one order.
+Result<void> sort_features(DiscPair& pair, const std::vector<FeaturePoint>& features) {
+  const std::vector<std::uint32_t> in_a = places_on_boundary(pair.maps[0].disc.surface),
+                                   in_b = places_on_boundary(pair.maps[1].disc.surface);
+  for (const FeaturePoint& pair_of : features) {
+    const bool is_on_a = in_a[pair_of.first] != kNone, is_on_b = in_b[pair_of.second] != kNone;
+    if (is_on_a != is_on_b)
+      return fail(ErrorKind::kInvalidInput, std::string("a feature is on the boundary of the ") +
+                                                (is_on_a ? "first mesh" : "second mesh") +
+                                                " and inside the other one");
+    auto& list = is_on_a ? pair.on_boundary : pair.inside;
+    if (std::find(list.begin(), list.end(), pair_of) == list.end()) list.push_back(pair_of);
+  }
+  auto& on_boundary = pair.on_boundary;
+  std::sort(
+      on_boundary.begin(), on_boundary.end(),
+      [&](const FeaturePoint& p, const FeaturePoint& q) { return in_a[p.first] < in_a[q.first]; });
+  int descents = 0;
+  for (std::size_t i = 0; i < on_boundary.size(); ++i)
+    descents +=
+        in_b[on_boundary[(i + 1) % on_boundary.size()].second] <= in_b[on_boundary[i].second];
+  if (descents > 1)
+    return fail(ErrorKind::kInvalidInput,
+                "features on the boundary come in another order on the second mesh");
+  return {};
+}
+
+// Turns the map; a turn rounds, which may fold the smallest triangles; another, almost equal one
+// may not.
+Result<void> turn(DiscMap& map, const std::vector<std::uint32_t>& capped, Rotation rotation) {
+  for (int attempt = 0; attempt < 20; ++attempt) {
+    std::vector<SpherePoint> turned = rotated_points(map.points, rotation);
+    if (count_flipped_on_sphere(capped, capped_points(turned)) == 0) {
+      map.points = std::move(turned);
+      return {};
+    }
+    const double angle = 1e-9 * (attempt + 1);
+    for (DVec3& row : rotation) row = DVec3(row.x - angle * row.y, row.y + angle * row.x, row.z);
+  }
+  return fail(ErrorKind::kFailed, "second mesh: triangles are too small to be turned");
+}
+
+}  // namespace
+
+Result<void> lay_boundaries(DiscPair& pair, const std::vector<FeaturePoint>& features) {
+  if (auto sorted = sort_features(pair, features); !sorted) return sorted;
+  DiscMap &a = pair.maps[0], &b = pair.maps[1];
+  if (auto laid = lay_boundary(a, {}); !laid) return fail_in("first mesh", std::move(laid.error()));
+  std::vector<BoundaryAnchor> anchors;
+  const std::vector<double> turns = boundary_turns(a.disc.surface, {});
+  const std::vector<std::uint32_t> place = places_on_boundary(a.disc.surface);
+  for (const auto& [in_a, in_b] : pair.on_boundary)
+    anchors.push_back({in_b, turns[place[in_a]], a.points[in_a]});
+  if (auto laid = lay_boundary(b, anchors); !laid)
+    return fail_in("second mesh", std::move(laid.error()));
+  return {};
+}
+
+Result<DiscMeeting> bring_together(DiscPair& pair) {
+  DiscMap &map_a = pair.maps[0], &map_b = pair.maps[1];
+  DiscMeeting meeting;
+  if (pair.on_boundary.empty()) {
+    const SphereTriangulation a(capped_indices(map_a.disc.surface), capped_points(map_a.points)),
+        b(capped_indices(map_b.disc.surface), capped_points(map_b.points));
+    const SphereMap in_a{a, map_a.disc.surface.positions}, in_b{b, map_b.disc.surface.positions};
+    Rotation rotation;
+    if (pair.inside.empty()) {
+      const ShapeAlignment found = align_discs(in_a, in_b);
+      rotation = found.sphere;
+      meeting.shape = found.shape;
+    } else {
+      rotation = align_disc_features(in_a, in_b, pair.inside);
+    }
+    if (rotation != kNoRotation)
+      if (auto turned = turn(map_b, b.indices, rotation); !turned)
+        return tl::unexpected(std::move(turned.error()));
+  }
+  if (pair.inside.empty()) return meeting;
+  CappedDisc moved = capped(map_b);
+  std::vector<Pin> pins;
+  pins.reserve(pair.inside.size());
+  for (const auto& [in_a, in_b] : pair.inside) pins.push_back({in_b, map_a.points[in_a]});
+  const MutableSphereMap map{moved.surface.indices, moved.surface.positions, moved.points,
+                             &moved.is_fixed};
+  meeting.feature_distance = drag_to_goals(map, pins).farthest;
+  moved.points.pop_back();
+  map_b.points = std::move(moved.points);
+  return meeting;
+}
+
+CappedDisc capped(DiscMap map) {
+  CappedDisc result{
+      std::move(map.disc.mesh), std::move(map.disc.surface), capped_points(map.points), {}};
+  SphereSurface& surface = result.surface;
+  result.is_fixed.resize(result.points.size(), false);
+  for (const std::uint32_t point : surface.boundary) result.is_fixed[point] = true;
+  result.is_fixed.back() = true;
+  surface.indices = capped_indices(surface);
+  surface.positions.push_back(surface.positions[surface.boundary[0]]);
+  return result;
+}
+
+}  // namespace varifold
