@@ -230,7 +230,8 @@ class SphereRepair {
     std::vector<std::pair<Edge, std::uint32_t>> edges;
     for (std::uint32_t h = 0; h < opposite_.size(); ++h) {
       const std::uint32_t from = point_of_[h], to = point_of_[next_half_edge(h)];
-      if (h < opposite_[h] && (opposite_[h] != kNone || options_.keep_longest_hole))
+      const bool is_open = opposite_[h] == kNone && from != kNone && to != kNone;
+      if (opposite_[h] != kNone ? h < opposite_[h] : is_open && options_.keep_longest_hole)
         edges.push_back({{std::min(from, to), std::max(from, to)}, h});
     }
     std::sort(edges.begin(), edges.end());
