@@ -38,6 +38,7 @@ float distance2(const Vec3& a, const Vec3& b, const Vec3& c) {
 // One of the two shapes and what its surface has gone through.
 struct Shape {
   std::vector<Vec3> positions;  // per point
+  std::vector<float> merged;    // per point: how far away what was merged into it may be
   std::vector<float> error;     // per triangle: how far it and what it stands for may be apart
   float tolerance = 0;
   float nothing = 0;  // an edge of this length has none
@@ -51,6 +52,7 @@ class OverlayReduction {
       Shape& shape = shapes_[s];
       const auto& from = s == 0 ? overlay.mesh.positions : overlay.mesh.poses[0].positions;
       shape.positions.resize(point_count_);
+      shape.merged.resize(point_count_, 0);
       shape.error.resize(overlay.mesh.triangle_count(), 0);
       Box box;
       for (std::size_t v = 0; v < from.size(); ++v) {
@@ -94,6 +96,7 @@ class OverlayReduction {
         if (!is_nothing(shapes_[0], point, target) || !is_nothing(shapes_[1], point, target) ||
             !stars_.can_collapse(point, target))
           continue;
+        for (Shape& shape : shapes_) shape.merged[target] = merged_after(shape, point, target);
         stars_.collapse(point, target);
         ++merged;
         break;
@@ -104,7 +107,16 @@ class OverlayReduction {
 
   static bool is_nothing(const Shape& shape, std::uint32_t p, std::uint32_t q) {
     const Vec3 way = shape.positions[p] - shape.positions[q];
-    return glm::dot(way, way) <= shape.nothing * shape.nothing;
+    return glm::dot(way, way) <= shape.nothing * shape.nothing &&
+           merged_after(shape, p, q) <= 2 * shape.nothing;
+  }
+
+  // How far what a point stands for is from it, after another one has gone onto it: many short
+  // steps must not make a long one.
+  static float merged_after(const Shape& shape, std::uint32_t point, std::uint32_t target) {
+    return std::max(
+        shape.merged[target],
+        shape.merged[point] + glm::distance(shape.positions[point], shape.positions[target]));
   }
 
   void reduce_at(std::uint32_t point, float part) {
