@@ -90,11 +90,12 @@ void expect_shape(const TriangleMesh& super, bool moved, const TriangleMesh& inp
   const TriangleMesh shape = shape_of(super, moved);
   const SurfaceDistanceReport distance = surface_distance(shape, input, options);
   EXPECT_LE(distance.hausdorff, tolerance * distance.diagonal);
-  // Covered once: another area would be a fold or a gap.
-  EXPECT_NEAR(surface_area(shape), surface_area(input),
-              (1e-5 + 20 * tolerance) * surface_area(input));
   const auto border = border_of(super, shape.positions);
   const auto wanted = border_of(input, input.positions);
+  // Covered once: another area would be a fold or a gap. A band as wide as the tolerance may go.
+  EXPECT_NEAR(surface_area(shape), surface_area(input),
+              (1e-5 + 20 * tolerance) * surface_area(input) +
+                  tolerance * distance.diagonal * length_of(wanted));
   EXPECT_LE(one_sided(border, wanted), tolerance * distance.diagonal);
   EXPECT_LE(one_sided(wanted, border), tolerance * distance.diagonal);
   // Once along it: not back and forth.
@@ -329,18 +330,12 @@ TEST(DiscSupermesh, CanBeCancelled) {
 TEST(DiscSupermesh, RandomDiscs) {
   Random random(11);
   const auto any = [&](std::uint64_t seed) {
-    switch (random.below(5)) {
-      case 0:
-        return test::rough_grid(1 + random.below(30), 1 + random.below(30), seed);
-      case 1:
-        return test::random_chords(3 + random.below(80), seed);
-      case 2:
-        return test::spiral(1 + random.below(150), 1 + 3 * static_cast<float>(random.uniform()));
-      case 3:
-        return test::with_ears(test::with_ears(test::random_chords(3 + random.below(9), seed)));
-      default:
-        return test::fan(3 + random.below(40));
-    }
+    const std::uint32_t kind = random.below(5), one = random.below(80), other = random.below(30);
+    if (kind == 0) return test::rough_grid(1 + one % 30, 1 + other, seed);
+    if (kind == 1) return test::random_chords(3 + one, seed);
+    if (kind == 2) return test::spiral(1 + 2 * one, 1 + 0.1f * static_cast<float>(other));
+    if (kind == 3) return test::with_ears(test::with_ears(test::random_chords(3 + other, seed)));
+    return test::fan(3 + other);
   };
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     SCOPED_TRACE(seed);

@@ -2,6 +2,7 @@
 #include <varifold/morph/disc_alignment.h>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace varifold {
@@ -73,10 +74,6 @@ class RingSampler {
   double scale_ = 1;
 };
 
-Rotation about_axis(const glm::dvec2& way) {
-  return {DVec3(way.x, -way.y, 0), DVec3(way.y, way.x, 0), DVec3(0, 0, 1)};
-}
-
 // The sum of squared distances when the second one is turned by some of the angles.
 double gap_of(const Table& places, const Table& others, std::uint32_t shift) {
   double sum = 0;
@@ -91,7 +88,7 @@ double gap_of(const Table& places, const Table& others, std::uint32_t shift) {
 
 }  // namespace
 
-ShapeAlignment align_discs(const SphereMap& a, const SphereMap& b) {
+DiscAlignment align_discs(const SphereMap& a, const SphereMap& b) {
   RingSampler sampler_a(a), sampler_b(b);
   const Table as_it_stands = sampler_a.at(0), others = sampler_b.at(0);
   Rotation best_turn = kNoRotation;
@@ -117,18 +114,20 @@ ShapeAlignment align_discs(const SphereMap& a, const SphereMap& b) {
   Rotation back;
   for (int row = 0; row < 3; ++row)
     back[row] = {best_turn[0][row], best_turn[1][row], best_turn[2][row]};
-  return {angle == 0 ? kNoRotation : about_axis(unit_circle(angle, kSteps)), back};
+  return {static_cast<double>(angle) / static_cast<double>(kSteps), back};
 }
 
-Rotation align_disc_features(const SphereMap& a, const SphereMap& b,
-                             std::span<const FeaturePoint> features) {
+double align_disc_features(const SphereMap& a, const SphereMap& b,
+                           std::span<const FeaturePoint> features) {
   glm::dvec2 sum(0);
   for (const auto& [in_a, in_b] : features) {
     const DVec3 p = direction(a.sphere.points[in_a]), q = direction(b.sphere.points[in_b]);
     sum += glm::dvec2(p.x * q.x + p.y * q.y, p.y * q.x - p.x * q.y);
   }
   const double length = std::sqrt(glm::dot(sum, sum));
-  return length > 1e-9 ? about_axis(sum / length) : kNoRotation;
+  if (length < 1e-9) return 0;
+  const double turn = arc_cosine(sum.x / length) / (2 * std::numbers::pi);
+  return sum.y >= 0 ? turn : 1 - turn;
 }
 
 }  // namespace varifold

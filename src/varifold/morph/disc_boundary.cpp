@@ -12,13 +12,6 @@ constexpr double kShortestEdge = 0.01;  // of the mean
 constexpr double kLongestEdge = 0.2;    // of the turn
 constexpr int kHalvings = 8;
 
-SpherePoint equator_point(double turn) {
-  constexpr std::uint64_t kSteps = std::uint64_t{1} << 52;
-  const auto step = static_cast<std::uint64_t>(std::llround(turn * static_cast<double>(kSteps)));
-  const glm::dvec2 way = unit_circle(step, kSteps);
-  return {std::llround(way.x * kSphereRadius), std::llround(way.y * kSphereRadius), 0};
-}
-
 // The sign of the turn from p to q on the equator; exact.
 int turn_sign(const SpherePoint& p, const SpherePoint& q) {
   return orientation({0, 0, std::int64_t{1} << 40}, p, q);
@@ -58,6 +51,59 @@ bool goes_around(const DiscMap& map) {
   return descents == 1;
 }
 
+// A place of the equator and the point of each disc that lies there.
+struct SharedPlace {
+  SpherePoint at;
+  std::array<std::uint32_t, 2> points{kNone, kNone};
+};
+
+// All places once around. Where both have a point, that of b gets the very place of that of a.
+std::vector<SharedPlace> places_of_both(const DiscMap& a, DiscMap& b) {
+  std::vector<SharedPlace> all, places;
+  for (const std::uint32_t point : a.disc.surface.boundary)
+    all.push_back({a.points[point], {point, kNone}});
+  for (const std::uint32_t point : b.disc.surface.boundary)
+    all.push_back({b.points[point], {kNone, point}});
+  std::stable_sort(all.begin(), all.end(), [](const SharedPlace& p, const SharedPlace& q) {
+    return is_before(p.at, q.at);
+  });
+  for (const SharedPlace& place : all) {
+    if (places.empty() || is_before(places.back().at, place.at)) {
+      places.push_back(place);
+      continue;
+    }
+    places.back().points[1] = place.points[1];  // those of a come first
+    b.points[place.points[1]] = places.back().at;
+  }
+  return places;
+}
+
+// Gives one of both, the first or the second, a point at every place.
+void cut_at_places(DiscMap& map, std::size_t which, std::vector<SharedPlace>& places) {
+  const SphereSurface& surface = map.disc.surface;
+  std::vector<std::uint32_t> half_from(map.points.size(), kNone);
+  for (const std::uint32_t h : boundary_half_edges(surface)) half_from[surface.indices[h]] = h;
+  std::size_t begin = 0;
+  while (places[begin].points[which] == kNone) ++begin;
+  std::vector<EdgeCut> cuts;
+  auto next = static_cast<std::uint32_t>(map.points.size());
+  std::uint32_t half_edge = kNone;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    SharedPlace& place = places[(begin + k) % places.size()];
+    if (place.points[which] != kNone) {
+      half_edge = half_from[place.points[which]];
+      continue;
+    }
+    const SpherePoint& from = map.points[surface.indices[half_edge]];
+    const SpherePoint& to = map.points[surface.indices[next_half_edge(half_edge)]];
+    const double before = turn_size(from, place.at), after = turn_size(place.at, to);
+    cuts.push_back({half_edge, kNone, before / (before + after)});
+    place.points[which] = next++;
+  }
+  cut_edges(map.disc, cuts);
+  map.points.resize(next);
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> capped_indices(const SphereSurface& surface) {
@@ -73,6 +119,13 @@ std::vector<SpherePoint> capped_points(std::span<const SpherePoint> points) {
   std::vector<SpherePoint> result(points.begin(), points.end());
   result.push_back(kSouthPole);
   return result;
+}
+
+SpherePoint equator_point(double turn) {
+  constexpr std::uint64_t kSteps = std::uint64_t{1} << 52;
+  const auto step = static_cast<std::uint64_t>(std::llround(turn * static_cast<double>(kSteps)));
+  const glm::dvec2 way = unit_circle(step, kSteps);
+  return {std::llround(way.x * kSphereRadius), std::llround(way.y * kSphereRadius), 0};
 }
 
 std::vector<double> boundary_turns(const SphereSurface& surface,
@@ -138,60 +191,15 @@ Result<void> lay_boundary(DiscMap& map, std::span<const BoundaryAnchor> anchors)
 }
 
 SharedPoints merge_boundaries(DiscMap& a, DiscMap& b) {
-  DiscMap* const maps[2] = {&a, &b};
-  // All places once around, and the point of each that lies there.
-  struct Place {
-    SpherePoint at;
-    std::array<std::uint32_t, 2> points{kNone, kNone};
-  };
-  std::vector<Place> all, places;
-  for (int i = 0; i < 2; ++i)
-    for (const std::uint32_t point : maps[i]->disc.surface.boundary) {
-      all.push_back({maps[i]->points[point], {kNone, kNone}});
-      all.back().points[i] = point;
-    }
-  std::stable_sort(all.begin(), all.end(),
-                   [](const Place& p, const Place& q) { return is_before(p.at, q.at); });
-  for (const Place& place : all) {
-    if (places.empty() || is_before(places.back().at, place.at)) {
-      places.push_back(place);
-      continue;
-    }
-    places.back().points[1] = place.points[1];  // those of a come first
-    b.points[place.points[1]] = places.back().at;
-  }
-
-  for (int i = 0; i < 2; ++i) {
-    DiscMap& map = *maps[i];
-    const std::vector<std::uint32_t> half_edges = boundary_half_edges(map.disc.surface);
-    std::vector<std::uint32_t> half_from(map.points.size(), kNone);
-    for (const std::uint32_t h : half_edges) half_from[map.disc.surface.indices[h]] = h;
-    std::size_t begin = 0;
-    while (places[begin].points[i] == kNone) ++begin;
-    std::vector<EdgeCut> cuts;
-    auto next = static_cast<std::uint32_t>(map.points.size());
-    std::uint32_t half_edge = kNone;
-    for (std::size_t k = 0; k < places.size(); ++k) {
-      Place& place = places[(begin + k) % places.size()];
-      if (place.points[i] != kNone) {
-        half_edge = half_from[place.points[i]];
-        continue;
-      }
-      const SpherePoint& from = map.points[map.disc.surface.indices[half_edge]];
-      const SpherePoint& to = map.points[map.disc.surface.indices[next_half_edge(half_edge)]];
-      const double before = turn_size(from, place.at), after = turn_size(place.at, to);
-      cuts.push_back({half_edge, kNone, before / (before + after)});
-      place.points[i] = next++;
-    }
-    cut_edges(map.disc, cuts);
-    map.points.resize(next);
-  }
+  std::vector<SharedPlace> places = places_of_both(a, b);
+  cut_at_places(a, 0, places);
+  cut_at_places(b, 1, places);
   SharedPoints shared;
   shared.in_b.resize(a.points.size() + 1, kNone);
   shared.in_a.resize(b.points.size() + 1, kNone);
   shared.in_b.back() = static_cast<std::uint32_t>(b.points.size());
   shared.in_a.back() = static_cast<std::uint32_t>(a.points.size());
-  for (const Place& place : places) {
+  for (const SharedPlace& place : places) {
     a.points[place.points[0]] = b.points[place.points[1]] = place.at;
     shared.in_b[place.points[0]] = place.points[1];
     shared.in_a[place.points[1]] = place.points[0];

@@ -33,6 +33,9 @@ struct BoundaryAnchor {
   SpherePoint place;  ///< the same
 };
 
+/// The point of the equator at a part of a full turn.
+[[nodiscard]] SpherePoint equator_point(double turn);
+
 /// Where the points of the boundary are, as parts of a full turn in the order of surface.boundary:
 /// by the lengths of the edges, of which each counts as a hundredth of the mean at least; between
 /// anchors, which must come in the order of the boundary, in proportion. O(boundary).

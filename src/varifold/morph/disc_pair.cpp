@@ -1,7 +1,9 @@
+#include <varifold/base/angle.h>
 #include <varifold/morph/disc_pair.h>
 #include <varifold/morph/feature_warp.h>
 #include <varifold/morph/sphere_embedding.h>
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace varifold {
@@ -41,19 +43,24 @@ Result<void> sort_features(DiscPair& pair, const std::vector<FeaturePoint>& feat
   return {};
 }
 
-// Turns the map; a turn rounds, which may fold the smallest triangles; another, almost equal one
-// may not.
-Result<void> turn(DiscMap& map, const std::vector<std::uint32_t>& capped, Rotation rotation) {
-  for (int attempt = 0; attempt < 20; ++attempt) {
-    std::vector<SpherePoint> turned = rotated_points(map.points, rotation);
-    if (count_flipped_on_sphere(capped, capped_points(turned)) == 0) {
-      map.points = std::move(turned);
-      return {};
-    }
-    const double angle = 1e-9 * (attempt + 1);
-    for (DVec3& row : rotation) row = DVec3(row.x - angle * row.y, row.y + angle * row.x, row.z);
+// Turns the map. That rounds, which may fold the smallest triangles; then it is made once more.
+Result<void> turn_by(DiscMap& map, const std::vector<std::uint32_t>& capped, double turn) {
+  constexpr std::uint64_t kSteps = std::uint64_t{1} << 52;
+  const glm::dvec2 way = unit_circle(
+      static_cast<std::uint64_t>(std::llround(turn * static_cast<double>(kSteps))), kSteps);
+  std::vector<SpherePoint> turned =
+      rotated_points(map.points, {DVec3(way.x, -way.y, 0), DVec3(way.y, way.x, 0), DVec3(0, 0, 1)});
+  if (count_flipped_on_sphere(capped, capped_points(turned)) == 0) {
+    map.points = std::move(turned);
+    return {};
   }
-  return fail(ErrorKind::kFailed, "second mesh: triangles are too small to be turned");
+  const SphereSurface& surface = map.disc.surface;
+  const BoundaryAnchor first{surface.boundary[0], turn, equator_point(turn)};
+  if (auto laid = lay_boundary(map, {&first, 1}); !laid) return laid;
+  auto points = embed_on_half_sphere(surface, map.points);
+  if (!points) return tl::unexpected(std::move(points.error()));
+  map.points = std::move(*points);
+  return {};
 }
 
 }  // namespace
@@ -79,17 +86,13 @@ Result<DiscMeeting> bring_together(DiscPair& pair) {
     const SphereTriangulation a(capped_indices(map_a.disc.surface), capped_points(map_a.points)),
         b(capped_indices(map_b.disc.surface), capped_points(map_b.points));
     const SphereMap in_a{a, map_a.disc.surface.positions}, in_b{b, map_b.disc.surface.positions};
-    Rotation rotation;
-    if (pair.inside.empty()) {
-      const ShapeAlignment found = align_discs(in_a, in_b);
-      rotation = found.sphere;
-      meeting.shape = found.shape;
-    } else {
-      rotation = align_disc_features(in_a, in_b, pair.inside);
-    }
-    if (rotation != kNoRotation)
-      if (auto turned = turn(map_b, b.indices, rotation); !turned)
-        return tl::unexpected(std::move(turned.error()));
+    const DiscAlignment found = pair.inside.empty()
+                                    ? align_discs(in_a, in_b)
+                                    : DiscAlignment{align_disc_features(in_a, in_b, pair.inside)};
+    meeting.shape = found.shape;
+    if (found.turn != 0)
+      if (auto turned = turn_by(map_b, b.indices, found.turn); !turned)
+        return fail_in("second mesh", std::move(turned.error()));
   }
   if (pair.inside.empty()) return meeting;
   CappedDisc moved = capped(map_b);

@@ -150,7 +150,16 @@ class OverlayReduction {
         for (const std::uint32_t triangle : rim.triangles)
           shapes_[s].error[triangle] = best_of_rim[s];
     }
+    // An ear leaves no triangle: what it has gone through belongs to the one behind it.
+    const bool is_ear = rim && star.size() == 1;
+    const std::uint32_t other = rim.points[rim.points[0] == best ? 1 : 0];
     stars_.collapse(point, best);
+    if (!is_ear) return;
+    for (const auto& spoke : stars_.gather(best))
+      for (int s = 0; s < 2 && (spoke.a == other || spoke.b == other); ++s) {
+        float& error = shapes_[s].error[spoke.corner / 3];
+        error = std::max(error, best_error[s]);
+      }
   }
 
   // What a star looks like before.

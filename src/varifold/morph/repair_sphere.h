@@ -27,7 +27,7 @@ struct RepairReport {
   std::uint32_t closed_holes = 0;
   std::uint32_t new_triangles = 0;  ///< that close them
   std::uint32_t cut_handles = 0;
-  bool turned = false;  ///< it was inside out: all triangles were turned
+  bool turned = false;           ///< it was inside out: all triangles were turned
   std::uint32_t open_edges = 0;  ///< of the hole that was kept; this is no change
   /// Its length in proportion to that of a circle around the same area as the surface has: 1 for a
   /// flat disc, 0.7 for half a sphere, more for what is long or jagged.
