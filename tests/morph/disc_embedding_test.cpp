@@ -65,6 +65,20 @@ TEST(DiscEmbedding, CoversHalfTheSphereWithoutFolds) {
   }
 }
 
+TEST(DiscEmbedding, LongCoilsFindPlaces) {
+  // Coarse levels of a coil have no shape to go by, and their vertices pile up.
+  for (const std::uint32_t length : {100u, 145u, 200u})
+    for (float turns = 1; turns < 6; turns += 0.5f) {
+      SCOPED_TRACE(std::to_string(length) + " " + std::to_string(turns));
+      DiscMap map = map_of(test::spiral(length, turns));
+      ASSERT_TRUE(lay_boundary(map, {}));
+      auto points = embed_on_half_sphere(map.disc.surface, map.points);
+      ASSERT_TRUE(points) << points.error().message;
+      map.points = std::move(*points);
+      expect_half_sphere(map);
+    }
+}
+
 TEST(DiscEmbedding, MergedBoundariesAreOne) {
   const std::vector<test::NamedMesh> discs = test::small_discs();
   for (std::size_t i = 0; i < discs.size(); ++i) {

@@ -250,14 +250,40 @@ class OverlayReduction {
       for (const float along : {1 / 3.0f, 2 / 3.0f}) {
         const Vec3 place = apex + along * (shape.positions[spoke.a] - apex);
         float gap = kTooMuch;
-        for (const auto& other : star)
+        for (const auto& other : star) {
+          if (kBetween * gap <= farthest) break;
           gap = std::min(gap, distance2(center - place, shape.positions[other.a] - place,
                                         shape.positions[other.b] - place));
+        }
         farthest = std::max(farthest, kBetween * gap);
         if (farthest > left * left) return kTooMuch;
       }
     }
-    return inherited + std::sqrt(farthest);
+    widen_by_old_edges(shape, center, target, star, left * left, farthest);
+    return farthest > left * left ? kTooMuch : inherited + std::sqrt(farthest);
+  }
+
+  // Raises `farthest` to how far the edges that go are from the new star, squared; ends where that
+  // is more than enough. On a sharp ridge new edges can be near both sides and cut it off between
+  // its ends.
+  static void widen_by_old_edges(const Shape& shape, const Vec3& center, std::uint32_t target,
+                                 Star star, float enough, float& farthest) {
+    const Vec3& apex = shape.positions[target];
+    for (const auto& spoke : star) {
+      if (spoke.a == target) continue;
+      for (const float along : {1 / 3.0f, 2 / 3.0f}) {
+        const Vec3 place = center + along * (shape.positions[spoke.a] - center);
+        float gap = star.size() > 1 ? std::numeric_limits<float>::infinity() : 0.0f;
+        for (const auto& other : star) {
+          if (gap <= farthest) break;
+          if (other.a != target && other.b != target)
+            gap = std::min(gap, distance2(apex - place, shape.positions[other.a] - place,
+                                          shape.positions[other.b] - place));
+        }
+        farthest = std::max(farthest, gap);
+        if (farthest > enough) return;
+      }
+    }
   }
 
   // Whether a triangle of the star holds both.

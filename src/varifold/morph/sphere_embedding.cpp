@@ -17,6 +17,9 @@ namespace {
 // All vertices are relaxed whenever there are so many times more of them.
 constexpr double kGrowth = 1.25;
 constexpr int kSweepsAtGrowth = 2;
+constexpr int kAttempts = 4;
+constexpr int kSweepsForRoom = 10;
+constexpr double kAlike = 1e3;  // a floor of lengths that makes all triangles alike
 // The part of the mean area of a triangle that each gets at least, roughly.
 constexpr double kAreaFloor = 0.02;
 
@@ -69,7 +72,8 @@ class SphereEmbedding {
     double next_sweep = fixed_ > 0 ? 2 : 6;
     for (std::size_t i = 0; i < steps; ++i) {
       const RecordedCollapse& step = record.steps[steps - 1 - i];
-      if (!split(record, step)) return out_of_resolution(step.vertex);
+      if (!split(record, step) && !split_with_more_room(record, step))
+        return out_of_resolution(step.vertex);
       if (free_count() < next_sweep) continue;
       if (!proceed(0.5f * static_cast<float>(i) / static_cast<float>(steps))) return cancelled();
       for (int sweep = 0; sweep < kSweepsAtGrowth; ++sweep) relax_all();
@@ -102,11 +106,14 @@ class SphereEmbedding {
 
   // Edges are at least as long as those of a small part of a mean triangle.
   void set_floor() {
-    relaxation_.set_scale(area_ / ((fixed_ > 0 ? 2 : 4) * std::numbers::pi));
+    relaxation_.set_scale(area_ / sphere_area());
+    relaxation_.set_length_floor(std::sqrt(kAreaFloor * 2.3 * area_ / triangle_count() + 1e-30));
+  }
+  [[nodiscard]] double sphere_area() const { return (fixed_ > 0 ? 2 : 4) * std::numbers::pi; }
+  [[nodiscard]] double triangle_count() const {
     // Those of the fan that closes a disc are as many as points of its boundary.
     const double fan = fixed_ > 0 ? fixed_ - 1.0 : 0;
-    const double triangles = 2.0 * mesh_.vertex_count() - 4 - fan;
-    relaxation_.set_length_floor(std::sqrt(kAreaFloor * 2.3 * area_ / triangles + 1e-30));
+    return 2.0 * mesh_.vertex_count() - 4 - fan;
   }
 
   void place_base() {
@@ -137,8 +144,28 @@ class SphereEmbedding {
     return true;
   }
 
+  // Where there is no place for a vertex, all others are moved as if all triangles were alike,
+  // which leaves room everywhere; the shape of the surface gets its due later.
+  bool split_with_more_room(const CollapseRecord& record, const RecordedCollapse& step) {
+    CollapseRecord again;
+    for (int attempt = 0; attempt < kAttempts; ++attempt) {
+      mesh_.collapse(step.vertex, record.ring(step)[0], again);
+      relaxation_.set_length_floor(kAlike);
+      relaxation_.set_scale(0.25 * std::sqrt(3.0) * kAlike * kAlike * triangle_count() /
+                            sphere_area());
+      for (int sweep = 0; sweep < (1 << attempt) * kSweepsForRoom; ++sweep) relax_each();
+      set_floor();
+      if (split(record, step)) return true;
+    }
+    return false;
+  }
+
   void relax_all() {
     set_floor();
+    relax_each();
+  }
+
+  void relax_each() {
     for (std::uint32_t v = 0; v < points_.size(); ++v)
       if (mesh_.is_live(v) && is_free(v)) relaxation_.relax(v, 2);
   }
