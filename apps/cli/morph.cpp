@@ -152,6 +152,7 @@ void report_supermesh(const Supermesh& super, Report& report) {
   report.set("input_triangles", {told.input_triangles[0], told.input_triangles[1]});
   report.row("of both inputs", format_count(inputs));
   report.count("overlay_triangles", "laid over each other", told.overlay_triangles);
+  report.set("discs", told.are_discs);
   report.set("crossings", told.crossings);
   report.set("flipped_on_sphere", told.flipped_on_sphere);
   report.set("feature_distance", told.feature_distance);

@@ -83,6 +83,7 @@ TEST_F(MorphCommand, KeepsDiscsOpen) {
     const ToolResult result = morph(options);
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_LE(result.json()["max_error"], 1e-4);
+    EXPECT_EQ(result.json()["discs"], true);
     EXPECT_EQ(loops_of(), 1u);
   }
   const ToolResult closed = morph({"--boundary", "close"});

@@ -69,6 +69,7 @@ class SupermeshBuilder {
                   surfaces_[0].is_disc()
                       ? "first mesh: open, with 1 hole, but the second mesh is closed"
                       : "second mesh: open, with 1 hole, but the first mesh is closed");
+    result_.report.are_discs = of_discs();
     return check_features();
   }
 
