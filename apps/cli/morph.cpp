@@ -16,7 +16,7 @@ namespace {
 struct MorphCommand {
   CommonOptions common;
   std::array<std::string, 2> inputs;
-  std::string output, features;
+  std::string output, features, boundary = "auto";
   double tolerance = SupermeshOptions().tolerance;
   std::uint32_t samples = 100'000;
   bool no_repair = false, fit = false;
@@ -44,17 +44,7 @@ Result<std::vector<FeaturePoint>> read_features(const std::string& name) {
 }
 
 // Tells on stderr what was mended.
-Result<TriangleMesh> read_sphere(const std::string& name, const MorphCommand& command,
-                                 bool has_features) {
-  const auto path = input_path(name);
-  auto imported = read_surface(path);
-  if (!imported) return tl::unexpected(std::move(imported.error()));
-  if (command.no_repair) return std::move(imported->mesh);
-  auto repaired = repair_to_sphere(imported->mesh);
-  if (!repaired) return fail_in(path.string(), std::move(repaired.error()));
-  const RepairReport& done = repaired->report;
-  // A mesh that needs nothing keeps its numbers, which features refer to.
-  if (!done.changed()) return std::move(imported->mesh);
+void print_repair(const std::filesystem::path& path, const RepairReport& done, bool has_features) {
   std::string list;
   const auto add = [&](std::uint32_t count, const char* what) {
     if (count == 0) return;
@@ -71,7 +61,57 @@ Result<TriangleMesh> read_sphere(const std::string& name, const MorphCommand& co
   print_message("varifold: " + path.string() + ": repaired: " + list);
   if (has_features)
     print_message("varifold: " + path.string() + ": its vertices have other numbers now");
-  return std::move(repaired->mesh);
+}
+
+using Meshes = std::array<TriangleMesh, 2>;
+using Repaired = std::array<RepairedSphere, 2>;
+
+// A hole that is shorter than this part of a circle around as much area is one to be closed.
+constexpr double kLeastOpenness = 0.25;
+
+Result<Repaired> repair_both(const Meshes& meshes, const MorphCommand& command, bool keeps_hole) {
+  Repaired repaired;
+  RepairOptions options;
+  options.keep_longest_hole = keeps_hole;
+  for (std::size_t i = 0; i < 2; ++i) {
+    auto one = repair_to_sphere(meshes[i], options);
+    if (!one) return fail_in(input_path(command.inputs[i]).string(), std::move(one.error()));
+    repaired[i] = std::move(*one);
+  }
+  return repaired;
+}
+
+// Mends both, as discs if that is what they are or what is wanted.
+Result<Meshes> repair(Meshes meshes, const MorphCommand& command, bool has_features) {
+  bool are_discs = command.boundary == "keep";
+  Result<Repaired> repaired = fail(ErrorKind::kFailed, "");
+  if (command.boundary != "close") {
+    repaired = repair_both(meshes, command, true);
+    if (!repaired) return tl::unexpected(std::move(repaired.error()));
+    are_discs = are_discs || ((*repaired)[0].report.openness >= kLeastOpenness &&
+                              (*repaired)[1].report.openness >= kLeastOpenness);
+  }
+  if (!are_discs) repaired = repair_both(meshes, command, false);
+  if (!repaired) return tl::unexpected(std::move(repaired.error()));
+  for (std::size_t i = 0; i < 2; ++i) {
+    // A mesh that needs nothing keeps its numbers, which features refer to.
+    const RepairReport& done = (*repaired)[i].report;
+    if (!done.changed()) continue;
+    print_repair(input_path(command.inputs[i]), done, has_features);
+    meshes[i] = std::move((*repaired)[i].mesh);
+  }
+  return meshes;
+}
+
+Result<Meshes> read_both(const MorphCommand& command, bool has_features) {
+  Meshes meshes;
+  for (std::size_t i = 0; i < 2; ++i) {
+    auto imported = read_surface(input_path(command.inputs[i]));
+    if (!imported) return tl::unexpected(std::move(imported.error()));
+    meshes[i] = std::move(imported->mesh);
+  }
+  if (command.no_repair) return meshes;
+  return repair(std::move(meshes), command, has_features);
 }
 
 struct Ends {
@@ -79,8 +119,8 @@ struct Ends {
 };
 
 // How far both ends of the morph are from the inputs, in both directions.
-Ends report_ends(const TriangleMesh& supermesh, const std::array<TriangleMesh, 2>& inputs,
-                 const MorphCommand& command, Report& report) {
+Ends report_ends(const TriangleMesh& supermesh, const Meshes& inputs, const MorphCommand& command,
+                 Report& report) {
   DistanceOptions options;
   options.samples = command.samples;
   options.vertices = true;
@@ -112,6 +152,7 @@ void report_supermesh(const Supermesh& super, Report& report) {
   report.set("input_triangles", {told.input_triangles[0], told.input_triangles[1]});
   report.row("of both inputs", format_count(inputs));
   report.count("overlay_triangles", "laid over each other", told.overlay_triangles);
+  report.set("discs", told.are_discs);
   report.set("crossings", told.crossings);
   report.set("flipped_on_sphere", told.flipped_on_sphere);
   report.set("feature_distance", told.feature_distance);
@@ -129,12 +170,9 @@ CommandResult run_morph(const MorphCommand& command) {
   auto features = read_features(command.features);
   if (!features) return tl::unexpected(std::move(features.error()));
   options.features = std::move(*features);
-  std::array<TriangleMesh, 2> inputs;
-  for (std::size_t i = 0; i < 2; ++i) {
-    auto mesh = read_sphere(command.inputs[i], command, !options.features.empty());
-    if (!mesh) return tl::unexpected(std::move(mesh.error()));
-    inputs[i] = std::move(*mesh);
-  }
+  auto read = read_both(command, !options.features.empty());
+  if (!read) return tl::unexpected(std::move(read.error()));
+  Meshes& inputs = *read;
   options.tolerance = command.tolerance;
   options.fit = command.fit;
   options.threads = command.common.threads;
@@ -165,7 +203,8 @@ void add_morph(CLI::App& app, CommandRunner& runner) {
   CLI::App* const command =
       app.add_subcommand("morph", "Make one mesh of two shapes that turns the one into the other");
   const auto options = std::make_shared<MorphCommand>();
-  command->add_option("a", options->inputs[0], "The shape at rest: closed, without handles")
+  command
+      ->add_option("a", options->inputs[0], "The shape at rest: closed or a disc, without handles")
       ->required()
       ->type_name("A");
   command->add_option("b", options->inputs[1], "The shape of its pose")->required()->type_name("B");
@@ -181,7 +220,14 @@ void add_morph(CLI::App& app, CommandRunner& runner) {
       ->capture_default_str()
       ->type_name("T");
   command->add_flag("--no-repair", options->no_repair,
-                    "Refuse meshes that are not closed manifolds instead of mending them");
+                    "Refuse meshes that are no closed manifolds or discs instead of mending them");
+  command
+      ->add_option("--boundary", options->boundary,
+                   "keep: the longest hole of both stays open, so that they are discs; close: none "
+                   "does; auto: keep, if these holes are long")
+      ->check(CLI::IsMember({"auto", "keep", "close"}))
+      ->capture_default_str()
+      ->type_name("WHAT");
   command->add_flag("--fit", options->fit,
                     "Turn B by multiples of 90 degrees, scale and move it to where A is");
   command->add_option("--samples", options->samples, "Points per direction to measure the ends at")

@@ -3,6 +3,7 @@
 #include <tests/cli/run_tool.h>
 #include <tests/support/test_files.h>
 #include <varifold/io/mesh_file.h>
+#include <varifold/mesh/topology.h>
 #include <varifold/mesh/validation.h>
 #include <fstream>
 
@@ -66,6 +67,35 @@ TEST_F(MorphCommand, FeaturesAreReadAndChecked) {
   EXPECT_EQ(with("3 4 5\n").exit_code, 3);
   EXPECT_EQ(with("3 1000000\n").exit_code, 3);
   EXPECT_EQ(morph({"--features", path("none.txt")}).exit_code, 3);
+}
+
+TEST_F(MorphCommand, KeepsDiscsOpen) {
+  make_mesh("a.ply", "terrain", "1");
+  make_mesh("b.ply", "plane");
+  const auto loops_of = [&] {
+    const auto super = read_mesh(path("super.glb"));
+    EXPECT_TRUE(super);
+    return analyze_topology(super->mesh, weld_points(super->mesh)).boundary_loops;
+  };
+  for (const std::vector<std::string>& options : {std::vector<std::string>{"--json"},
+                                                  {"--json", "--no-repair"},
+                                                  {"--json", "--boundary", "keep"}}) {
+    const ToolResult result = morph(options);
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_LE(result.json()["max_error"], 1e-4);
+    EXPECT_EQ(result.json()["discs"], true);
+    EXPECT_EQ(loops_of(), 1u);
+  }
+  const ToolResult closed = morph({"--boundary", "close"});
+  ASSERT_EQ(closed.exit_code, 0) << closed.err;
+  EXPECT_NE(closed.err.find("1 holes closed"), std::string::npos) << closed.err;
+  EXPECT_EQ(loops_of(), 0u);
+  make_mesh("b.ply", "planet", "2");
+  const ToolResult unlike = morph({"--boundary", "keep"});
+  EXPECT_EQ(unlike.exit_code, 3);
+  EXPECT_NE(unlike.err.find("open, with 1 hole, but the second mesh is closed"), std::string::npos)
+      << unlike.err;
+  EXPECT_EQ(morph({"--boundary", "some"}).exit_code, 2);
 }
 
 TEST_F(MorphCommand, RefusesWhatIsNoSphere) {

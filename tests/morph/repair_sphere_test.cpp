@@ -7,6 +7,7 @@
 #include <varifold/mesh/topology.h>
 #include <varifold/morph/repair_sphere.h>
 #include <varifold/morph/sphere_surface.h>
+#include <cmath>
 
 namespace varifold {
 namespace {
@@ -91,6 +92,44 @@ TEST(RepairSphere, CutsSmallHandlesAlone) {
     ASSERT_TRUE(cut);
     EXPECT_EQ(cut->report.cut_handles, handles);
     EXPECT_TRUE(as_sphere(cut->mesh, "m"));
+  }
+}
+
+TEST(RepairSphere, KeepsTheLongestHoleOpenIfAsked) {
+  TriangleMesh mesh = test::grid(12, 12);
+  mesh.indices.erase(mesh.indices.begin() + 150, mesh.indices.begin() + 156);  // three triangles
+  ASSERT_FALSE(as_sphere_or_disc(mesh, "m"));
+  RepairOptions options;
+  options.keep_longest_hole = true;
+  options.max_hole_edges = 5;
+  const auto repaired = repair_to_sphere(mesh, options);
+  ASSERT_TRUE(repaired);
+  EXPECT_EQ(repaired->report.closed_holes, 1u);
+  EXPECT_EQ(repaired->report.open_edges, 48u);
+  EXPECT_NEAR(repaired->report.openness, 48 / std::sqrt(4 * 3.14159265 * 144), 0.02);
+  const auto disc = as_sphere_or_disc(repaired->mesh, "m");
+  ASSERT_TRUE(disc) << disc.error().message;
+  EXPECT_EQ(disc->boundary.size(), 48u);
+  // Without a hole it does what it does.
+  const auto sphere = repair_to_sphere(test::icosphere(80), options);
+  ASSERT_TRUE(sphere);
+  EXPECT_FALSE(sphere->report.changed());
+  EXPECT_EQ(sphere->report.open_edges, 0u);
+}
+
+TEST(RepairSphere, EveryGroupHasOneHoleOrNone) {
+  RepairOptions options;
+  options.keep_longest_hole = true;
+  for (const test::NamedMesh& named : test::all_groups()) {
+    SCOPED_TRACE(named.name);
+    const auto repaired = repair_to_sphere(named.mesh, options);
+    if (!repaired) continue;
+    const TopologyReport report =
+        analyze_topology(repaired->mesh, weld_exact(repaired->mesh.positions));
+    EXPECT_EQ(report.misoriented_edges, 0u);
+    EXPECT_EQ(report.nonmanifold_edges, 0u);
+    EXPECT_EQ(report.components, 1u);
+    EXPECT_EQ(report.boundary_loops, repaired->report.open_edges > 0 ? 1u : 0u);
   }
 }
 

@@ -169,23 +169,6 @@ class CubeTable {
   std::vector<DVec3> texels_;
 };
 
-// The 24 rotations that take axes to axes; the identity first.
-std::vector<Rotation> axis_rotations() {
-  std::vector<Rotation> result;
-  const std::array<std::array<int, 3>, 6> orders{
-      {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
-  for (std::size_t order = 0; order < orders.size(); ++order)
-    for (int signs = 0; signs < 8; ++signs) {
-      const bool is_even = (signs == 0 || signs == 3 || signs == 5 || signs == 6);
-      if (is_even != (order < 3)) continue;
-      Rotation rotation{DVec3(0), DVec3(0), DVec3(0)};
-      for (int row = 0; row < 3; ++row)
-        rotation[row][orders[order][row]] = (signs >> row & 1) != 0 ? -1 : 1;
-      result.push_back(rotation);
-    }
-  return result;
-}
-
 Rotation transposed(const Rotation& r) {
   return {DVec3(r[0].x, r[1].x, r[2].x), DVec3(r[0].y, r[1].y, r[2].y),
           DVec3(r[0].z, r[1].z, r[2].z)};
@@ -227,6 +210,22 @@ Rotation best_turn(const std::vector<DVec3>& places, const std::vector<DVec3>& o
 }
 
 }  // namespace
+
+std::vector<Rotation> axis_rotations() {
+  std::vector<Rotation> result;
+  const std::array<std::array<int, 3>, 6> orders{
+      {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
+  for (std::size_t order = 0; order < orders.size(); ++order)
+    for (int signs = 0; signs < 8; ++signs) {
+      const bool is_even = (signs == 0 || signs == 3 || signs == 5 || signs == 6);
+      if (is_even != (order < 3)) continue;
+      Rotation rotation{DVec3(0), DVec3(0), DVec3(0)};
+      for (int row = 0; row < 3; ++row)
+        rotation[row][orders[order][row]] = (signs >> row & 1) != 0 ? -1 : 1;
+      result.push_back(rotation);
+    }
+  return result;
+}
 
 Rotation align_features(const SphereMap& a, const SphereMap& b,
                         std::span<const FeaturePoint> features) {

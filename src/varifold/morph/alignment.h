@@ -33,6 +33,9 @@ struct SphereMap {
   std::span<const Vec3> positions;  ///< one for each of sphere.points
 };
 
+/// The 24 rotations that take axes to axes; the identity first.
+[[nodiscard]] std::vector<Rotation> axis_rotations();
+
 /// The rotation of the sphere of `b` that brings each pair of features (points of a, of b) closest
 /// together, least squares. Some thousand rotations are tried and the best ones refined.
 [[nodiscard]] Rotation align_features(const SphereMap& a, const SphereMap& b,

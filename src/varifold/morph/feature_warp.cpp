@@ -25,6 +25,9 @@ double distance_to_goal(const SpherePoint& from, const SpherePoint& to) {
 double area_of(const MutableSphereMap& map) {
   double area = 0;
   for (std::size_t t = 0; t + 2 < map.indices.size(); t += 3) {
+    if (!map.may_move(map.indices[t]) && !map.may_move(map.indices[t + 1]) &&
+        !map.may_move(map.indices[t + 2]))
+      continue;  // of the fan that closes a disc
     const DVec3 a(map.positions[map.indices[t]]), b(map.positions[map.indices[t + 1]]),
         c(map.positions[map.indices[t + 2]]);
     area += 0.5 * glm::length(glm::cross(b - a, c - a));
@@ -57,10 +60,14 @@ void drag(const RingMesh& mesh, std::span<SpherePoint> points, const Pin& pin) {
 }
 
 // The whole sphere flows with the pins: each vertex by the means of their ways, weighted by the
-// fourth power of the inverse distance. False, and nothing moves, where a triangle would fold.
+// fourth power of the inverse distance; of a disc less and less below the lowest pin, and nothing
+// on the boundary. False, and nothing moves, where a triangle would fold.
 bool flow(const MutableSphereMap& map, std::span<const Pin> pins, double part) {
   std::vector<SpherePoint> moved(map.points.begin(), map.points.end());
+  double lowest = 1;
+  for (const Pin& pin : pins) lowest = std::min(lowest, direction(map.points[pin.vertex]).z);
   for (std::uint32_t v = 0; v < moved.size(); ++v) {
+    if (!map.may_move(v)) continue;
     const DVec3 point = direction(map.points[v]);
     DVec3 way(0);
     double weights = 0;
@@ -72,6 +79,7 @@ bool flow(const MutableSphereMap& map, std::span<const Pin> pins, double part) {
       way += weight * (direction(pin.goal) - from);
       weights += weight;
     }
+    if (map.is_fixed != nullptr) way *= std::min(1.0, point.z / lowest);
     moved[v] = to_sphere_point(point + part / weights * way);
   }
   if (part == 1)
@@ -102,7 +110,7 @@ WarpReport drag_to_goals(const MutableSphereMap& map, std::span<const Pin> pins)
   const auto count = static_cast<std::uint32_t>(map.points.size());
   const RingMesh mesh(map.indices, count);
   StarRelaxation relaxation(mesh, map.positions, map.points);
-  relaxation.set_scale(area_of(map) / (4 * std::numbers::pi));
+  relaxation.set_scale(area_of(map) / ((map.is_fixed == nullptr ? 4 : 2) * std::numbers::pi));
   std::vector<bool> is_pinned(count, false);
   for (const Pin& pin : pins) is_pinned[pin.vertex] = true;
   double nearest_sum = 1e300;
@@ -120,7 +128,7 @@ WarpReport drag_to_goals(const MutableSphereMap& map, std::span<const Pin> pins)
     if (!has_flowed || farthest < kDragged)
       for (const Pin& pin : pins) drag(mesh, map.points, pin);
     for (std::uint32_t v = 0; v < count; ++v)
-      if (!is_pinned[v]) relaxation.relax(v, 2);
+      if (!is_pinned[v] && map.may_move(v)) relaxation.relax(v, 2);
   }
   report.farthest = distances(map, pins).first;
   return report;
@@ -131,6 +139,7 @@ void jitter(const MutableSphereMap& map, double reach, std::uint64_t seed) {
   const RingMesh mesh(map.indices, count);
   Random random(seed);
   for (std::uint32_t v = 0; v < count; ++v) {
+    if (!map.may_move(v)) continue;
     const DVec3 point = direction(map.points[v]);
     DVec3 way(random.uniform() - 0.5, random.uniform() - 0.5, random.uniform() - 0.5);
     way *= 2 * reach;

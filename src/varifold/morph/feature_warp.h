@@ -11,10 +11,17 @@
 namespace varifold {
 
 /// A map that is changed in place; a triangulation of the whole sphere, all triangles positive.
+/// `is_fixed` is null, or says of a disc which vertices must stay: those of its boundary, on the
+/// equator, and the one below.
 struct MutableSphereMap {
   std::span<const std::uint32_t> indices;
   std::span<const Vec3> positions;
   std::span<SpherePoint> points;
+  const std::vector<bool>* is_fixed = nullptr;
+
+  [[nodiscard]] bool may_move(std::uint32_t vertex) const {
+    return is_fixed == nullptr || !(*is_fixed)[vertex];
+  }
 };
 
 struct Pin {

@@ -13,31 +13,66 @@ namespace {
 
 constexpr std::size_t kEdgesAtOnce = 1024;
 
-// Walks from a vertex inside `triangle` of `map` to another point along the great circle. Gives
-// the half-edges that it leaves triangles by; false where a sign is zero.
-template <class Visit>
-bool walk(const SphereTriangulation& map, const SpherePoint& start, const SpherePoint& end,
-          std::uint32_t triangle, const Visit& visit) {
-  const auto side = [&](std::uint32_t vertex) {
-    return orientation(start, end, map.points[vertex]);
-  };
-  // The half-edge with its beginning on the right and its end on the left is the way out.
-  std::uint32_t exit = kNone;
-  for (std::uint32_t h = 3 * triangle; h < 3 * triangle + 3; ++h) {
-    const int from = side(map.from(h)), to = side(map.to(h));
-    const int inside = orientation(map.points[map.from(h)], map.points[map.to(h)], start);
-    if (from == 0 || to == 0 || inside <= 0) return false;
-    if (from < 0 && to > 0) exit = h;
+// A way over a map along a great circle.
+struct Way {
+  SpherePoint start, end;
+  std::uint32_t triangle = kNone;     // that the start lies in, if it is no vertex
+  std::uint32_t first_spoke = kNone;  // a half-edge from the start, if it is a vertex
+  std::uint32_t last_vertex = kNone;  // the end, if it is one
+};
+
+bool is_inside(const SphereTriangulation& map, std::uint32_t triangle, const SpherePoint& point) {
+  for (std::uint32_t h = 3 * triangle; h < 3 * triangle + 3; ++h)
+    if (orientation(map.points[map.from(h)], map.points[map.to(h)], point) <= 0) return false;
+  return true;
+}
+
+// The half-edge by which a way leaves the first triangle: its beginning is on the right, its end on
+// the left. kNone where the way goes through a vertex, or along an edge, at first.
+template <class Side>
+std::uint32_t first_exit(const SphereTriangulation& map, const Way& way, const Side& side) {
+  if (way.first_spoke == kNone) {
+    for (std::uint32_t h = 3 * way.triangle; h < 3 * way.triangle + 3; ++h)
+      if (side(map.from(h)) < 0 && side(map.to(h)) > 0) return h;
+    return kNone;
   }
-  if (exit == kNone) return false;
+  // Around a vertex of the boundary; the end lies above the equator, so not in the fan below.
+  std::uint32_t spoke = way.first_spoke;
+  do {
+    const std::uint32_t across = next_half_edge(spoke);
+    if (map.points[map.from(across)].z >= 0 && map.points[map.to(across)].z >= 0 &&
+        side(map.from(across)) < 0 && side(map.to(across)) > 0)
+      return across;
+    spoke = map.opposite[next_half_edge(across)];
+  } while (spoke != way.first_spoke);
+  return kNone;
+}
+
+// Gives the half-edges that a way leaves triangles by; false where a sign is zero that matters. On
+// the boundary of a disc there may be vertices exactly across from the start or the end, on every
+// way from there: in a triangle with such a one, ways begin or end.
+template <class Visit>
+bool walk(const SphereTriangulation& map, const Way& way, const Visit& visit) {
+  const SpherePoint& end = way.end;
+  const auto side = [&](std::uint32_t vertex) {
+    return orientation(way.start, end, map.points[vertex]);
+  };
+  if (way.first_spoke == kNone) {
+    if (!is_inside(map, way.triangle, way.start)) return false;
+    for (std::uint32_t h = 3 * way.triangle; h < 3 * way.triangle + 3; ++h)
+      if (map.from(h) == way.last_vertex) return true;
+  }
+  std::uint32_t exit = first_exit(map, way, side);
+  if (exit == kNone) return way.first_spoke == kNone && is_inside(map, way.triangle, end);
   for (std::size_t step = 0; step < map.indices.size(); ++step) {
     const int inside = orientation(map.points[map.from(exit)], map.points[map.to(exit)], end);
     if (inside == 0) return false;
     if (inside > 0) return true;
     visit(exit);
     const std::uint32_t entry = map.opposite[exit], ahead = next_half_edge(entry);
+    if (map.to(ahead) == way.last_vertex) return true;
     const int apex = side(map.to(ahead));
-    if (apex == 0) return false;
+    if (apex == 0) return is_inside(map, entry / 3, end);
     // The entry runs from left to right, seen along the way.
     exit = apex > 0 ? ahead : next_half_edge(ahead);
   }
@@ -50,8 +85,23 @@ struct Walks {
   bool is_exact = true;
 };
 
+// Where vertices of one map lie on the other one.
+struct Places {
+  const std::vector<std::uint32_t>& triangle;
+  const std::vector<std::uint32_t>& vertex;  // for those that both share; empty without such
+
+  [[nodiscard]] std::uint32_t vertex_of(std::uint32_t point) const {
+    return vertex.empty() ? kNone : vertex[point];
+  }
+};
+
 Walks walk_all(const SphereTriangulation& edges, const SphereTriangulation& map,
-               const std::vector<std::uint32_t>& place, int threads) {
+               const Places& places, int threads) {
+  std::vector<std::uint32_t> spoke_of;  // per vertex of the map, a half-edge that begins there
+  if (!places.vertex.empty()) {
+    spoke_of.resize(map.points.size());
+    for (std::uint32_t h = 0; h < map.indices.size(); ++h) spoke_of[map.from(h)] = h;
+  }
   const std::size_t pieces = (edges.edge_count() + kEdgesAtOnce - 1) / kEdgesAtOnce;
   std::vector<std::vector<std::uint32_t>> found(pieces);
   Walks walks;
@@ -62,11 +112,15 @@ Walks walk_all(const SphereTriangulation& edges, const SphereTriangulation& map,
       const std::size_t last =
           std::min<std::size_t>((piece + 1) * kEdgesAtOnce, edges.edge_count());
       for (std::size_t e = piece * kEdgesAtOnce; e < last; ++e) {
-        const std::uint32_t h = edges.edge_half[e], from = edges.from(h);
+        const std::uint32_t h = edges.edge_half[e], from = edges.from(h), to = edges.to(h);
         const std::size_t before = found[piece].size();
-        if (place[from] == kNone ||
-            !walk(map, edges.points[from], edges.points[edges.to(h)], place[from],
-                  [&](std::uint32_t exit) { found[piece].push_back(exit); }))
+        const std::uint32_t shared = places.vertex_of(from);
+        Way way{edges.points[from], edges.points[to], kNone, kNone, places.vertex_of(to)};
+        (shared == kNone ? way.triangle : way.first_spoke) =
+            shared == kNone ? places.triangle[from] : spoke_of[shared];
+        if (shared != kNone && way.last_vertex != kNone) continue;  // of the boundary or the fan
+        if ((shared == kNone && way.triangle == kNone) ||
+            !walk(map, way, [&](std::uint32_t exit) { found[piece].push_back(exit); }))
           is_exact = false;
         walks.first[e + 1] = static_cast<std::uint32_t>(found[piece].size() - before);
       }
@@ -112,13 +166,14 @@ bool order_along_a(const Walks& along_a, const SphereTriangulation& b, Crossings
 }  // namespace
 
 std::optional<Crossings> find_crossings(const SphereTriangulation& a, const SphereTriangulation& b,
-                                        int threads) {
+                                        int threads, SharedPoints shared) {
   Crossings result;
+  result.shared = std::move(shared);
   parallel_both(
       threads, [&] { result.triangle_in_b = locate_vertices(a, b); },
       [&] { result.triangle_in_a = locate_vertices(b, a); });
-  const Walks along_b = walk_all(b, a, result.triangle_in_a, threads);
-  const Walks along_a = walk_all(a, b, result.triangle_in_b, threads);
+  const Walks along_b = walk_all(b, a, {result.triangle_in_a, result.shared.in_a}, threads);
+  const Walks along_a = walk_all(a, b, {result.triangle_in_b, result.shared.in_b}, threads);
   if (!along_a.is_exact || !along_b.is_exact) return std::nullopt;
   result.first_on_b = along_b.first;
   result.crossings.resize(along_b.half_edges.size());

@@ -1,3 +1,4 @@
+#include <varifold/mesh/vertex_arrays.h>
 #include <varifold/morph/overlay_mesh.h>
 #include <algorithm>
 #include <array>
@@ -35,6 +36,8 @@ class SurfaceNodes {
     const auto others = static_cast<std::uint32_t>(other_.sphere.points.size());
     const std::uint32_t first_own = is_a_ ? 0 : others, first_other = is_a_ ? own : 0;
     if (node >= own + others) return on_edge(node - own - others, triangle);
+    const auto& in_b = crossings_.shared.in_b;
+    if (!is_a_ && node < in_b.size() && in_b[node] != kNone) return at_vertex(in_b[node], triangle);
     if (node - first_own < own) return at_vertex(node - first_own, triangle);
     return inside(other_.sphere.points[node - first_other], triangle);
   }
@@ -119,8 +122,10 @@ class OverlayMesh {
       material_of.resize(mesh_.triangle_count(), materials[a_.triangles[cells_.triangle_a[cell]]]);
     }
     if (!a_.mesh.ranges.empty()) set_triangle_materials(mesh_, material_of);
-    return {std::move(mesh_), std::move(point_of_vertex_),
-            static_cast<std::uint32_t>(first_variant_.size())};
+    OverlayTriangles result{std::move(mesh_), std::move(point_of_vertex_),
+                            static_cast<std::uint32_t>(first_variant_.size())};
+    close_with_fan(result);
+    return result;
   }
 
  private:
@@ -158,6 +163,32 @@ class OverlayMesh {
     if (has_both_normals_) pose.normals.push_back(normalize_or_zero(blend(b_.mesh.normals, on_b)));
     if (a_.mesh.has_texcoords()) mesh_.texcoords.push_back(blend(a_.mesh.texcoords, on_a));
     if (a_.mesh.has_colors()) mesh_.colors.push_back(blend(a_.mesh.colors, on_a));
+  }
+
+  // Of a disc: the fan of a, which is that of b, too. Nodes of the boundary are vertices of a.
+  void close_with_fan(OverlayTriangles& overlay) const {
+    const std::vector<std::uint32_t>& corners = a_.sphere.indices;
+    std::vector<std::uint32_t> vertex_at(a_.sphere.points.size(), kNone);
+    std::vector<std::uint32_t> copied, points;
+    const std::size_t first = 3 * a_.triangles.size();
+    for (std::size_t corner = first; corner < corners.size(); ++corner) {
+      const std::uint32_t node = corners[corner];
+      if (vertex_at[node] == kNone) {
+        vertex_at[node] = overlay.mesh.vertex_count() + static_cast<std::uint32_t>(copied.size());
+        // The pole, where nothing is, gets the place of its neighbour.
+        const bool is_pole = first_variant_[node] == kNone;
+        copied.push_back(first_variant_[is_pole ? corners[first] : node]);
+        points.push_back(node);
+        if (is_pole) overlay.pole = node;
+      }
+      overlay.mesh.indices.push_back(vertex_at[node]);
+    }
+    overlay.fan_triangles = static_cast<std::uint32_t>((corners.size() - first) / 3);
+    for_each_vertex_array(overlay.mesh, [&]<class Value>(std::vector<Value>& values) {
+      for (std::size_t i = 0; i < copied.size() && !values.empty(); ++i)
+        values.push_back(Value(values[copied[i]]));
+    });
+    overlay.point_of_vertex.insert(overlay.point_of_vertex.end(), points.begin(), points.end());
   }
 
   // The worst shape of a triangle of the fan about a corner, on both surfaces.

@@ -10,7 +10,8 @@
 namespace varifold {
 
 /// One of the two surfaces: its mesh, the map of its points (position classes) onto the sphere,
-/// and for each triangle of that the triangle of the mesh, whose corners are in the same order.
+/// and for each triangle of that the triangle of the mesh, whose corners are in the same order. Of
+/// discs the map goes on with the fan that closes it.
 struct MappedSurface {
   const TriangleMesh& mesh;
   const SphereTriangulation& sphere;
@@ -22,7 +23,8 @@ struct MappedSurface {
 /// that both surfaces are met exactly up to the rounding of floats. Normals, texture coordinates,
 /// colours and materials are those of a, the normals of the pose those of b where both have
 /// normals. Points are the
-/// nodes of the cells; a vertex for each combination of wedges (seams of either). O(cells).
+/// nodes of the cells; a vertex for each combination of wedges (seams of either). Of discs, the
+/// boundary gets a fan with vertices of its own. O(cells).
 [[nodiscard]] OverlayTriangles make_overlay_mesh(const MappedSurface& a, const MappedSurface& b,
                                                  const Crossings& crossings,
                                                  const OverlayCells& cells);

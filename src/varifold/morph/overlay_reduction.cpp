@@ -38,6 +38,7 @@ float distance2(const Vec3& a, const Vec3& b, const Vec3& c) {
 // One of the two shapes and what its surface has gone through.
 struct Shape {
   std::vector<Vec3> positions;  // per point
+  std::vector<float> merged;    // per point: how far away what was merged into it may be
   std::vector<float> error;     // per triangle: how far it and what it stands for may be apart
   float tolerance = 0;
   float nothing = 0;  // an edge of this length has none
@@ -51,6 +52,7 @@ class OverlayReduction {
       Shape& shape = shapes_[s];
       const auto& from = s == 0 ? overlay.mesh.positions : overlay.mesh.poses[0].positions;
       shape.positions.resize(point_count_);
+      shape.merged.resize(point_count_, 0);
       shape.error.resize(overlay.mesh.triangle_count(), 0);
       Box box;
       for (std::size_t v = 0; v < from.size(); ++v) {
@@ -89,11 +91,12 @@ class OverlayReduction {
   std::uint32_t merge_all() {
     std::uint32_t merged = 0;
     for (std::uint32_t point = point_count_; point-- > 0;) {
-      for (const auto& spoke : stars_.gather(point)) {
-        const std::uint32_t target = spoke.a;
+      (void)stars_.gather(point);
+      for (const std::uint32_t target : stars_.targets()) {
         if (!is_nothing(shapes_[0], point, target) || !is_nothing(shapes_[1], point, target) ||
             !stars_.can_collapse(point, target))
           continue;
+        for (Shape& shape : shapes_) shape.merged[target] = merged_after(shape, point, target);
         stars_.collapse(point, target);
         ++merged;
         break;
@@ -104,19 +107,28 @@ class OverlayReduction {
 
   static bool is_nothing(const Shape& shape, std::uint32_t p, std::uint32_t q) {
     const Vec3 way = shape.positions[p] - shape.positions[q];
-    return glm::dot(way, way) <= shape.nothing * shape.nothing;
+    return glm::dot(way, way) <= shape.nothing * shape.nothing &&
+           merged_after(shape, p, q) <= 2 * shape.nothing;
+  }
+
+  // How far what a point stands for is from it, after another one has gone onto it: many short
+  // steps must not make a long one.
+  static float merged_after(const Shape& shape, std::uint32_t point, std::uint32_t target) {
+    return std::max(
+        shape.merged[target],
+        shape.merged[point] + glm::distance(shape.positions[point], shape.positions[target]));
   }
 
   void reduce_at(std::uint32_t point, float part) {
     const auto star = stars_.gather(point);
-    if (star.size() < 3 || star.size() > kLargestStar) return;
+    const OverlayStars::Rim& rim = stars_.rim();
+    if ((!rim && star.size() < 3) || star.empty() || star.size() > kLargestStar) return;
     for (int s = 0; s < 2; ++s) old_[s] = look_at(shapes_[s], point, star);
     std::uint32_t best = kNone;
     float best_shape = -1;
-    std::array<float, 2> best_error{0, 0};
-    for (const auto& spoke : star) {
-      const std::uint32_t target = spoke.a;
-      std::array<float, 2> error{0, 0};
+    std::array<float, 2> best_error{0, 0}, best_of_rim{0, 0};
+    for (const std::uint32_t target : stars_.targets()) {
+      std::array<float, 2> error{0, 0}, of_rim{0, 0};
       float shape = 1;
       bool is_legal = true;
       for (int s = 0; s < 2 && is_legal; ++s) {
@@ -124,16 +136,30 @@ class OverlayReduction {
         is_legal = worst >= 0;
         shape = std::min(shape, worst);
         if (!is_legal || shape <= best_shape) break;
-        error[s] = error_after(s, point, target, star, part);
+        if (rim) of_rim[s] = rim_error_after(s, point, rim);
+        error[s] = std::max(of_rim[s], error_after(s, point, target, star, part));
         is_legal = error[s] <= part * shapes_[s].tolerance;
       }
       if (!is_legal || shape <= best_shape || !stars_.can_collapse(point, target)) continue;
-      best = target, best_shape = shape, best_error = error;
+      best = target, best_shape = shape, best_error = error, best_of_rim = of_rim;
     }
     if (best == kNone) return;
-    for (int s = 0; s < 2; ++s)
+    for (int s = 0; s < 2; ++s) {
       for (const auto& spoke : star) shapes_[s].error[spoke.corner / 3] = best_error[s];
+      if (rim)
+        for (const std::uint32_t triangle : rim.triangles)
+          shapes_[s].error[triangle] = best_of_rim[s];
+    }
+    // An ear leaves no triangle: what it has gone through belongs to the one behind it.
+    const bool is_ear = rim && star.size() == 1;
+    const std::uint32_t other = rim.points[rim.points[0] == best ? 1 : 0];
     stars_.collapse(point, best);
+    if (!is_ear) return;
+    for (const auto& spoke : stars_.gather(best))
+      for (int s = 0; s < 2 && (spoke.a == other || spoke.b == other); ++s) {
+        float& error = shapes_[s].error[spoke.corner / 3];
+        error = std::max(error, best_error[s]);
+      }
   }
 
   // What a star looks like before.
@@ -180,6 +206,22 @@ class OverlayReduction {
     return worst;
   }
 
+  // The square of the distance from a point of the boundary to the edge that takes its place.
+  [[nodiscard]] float to_new_rim(int s, std::uint32_t point, const OverlayStars::Rim& rim) const {
+    const auto& positions = shapes_[s].positions;
+    const Vec3 &p = positions[rim.points[0]], &q = positions[rim.points[1]];
+    return distance2(p - positions[point], q - positions[point], q - positions[point]);
+  }
+
+  // How far the boundary may be from that of the input after its collapse along itself; the
+  // triangles of the fan keep that.
+  [[nodiscard]] float rim_error_after(int s, std::uint32_t point,
+                                      const OverlayStars::Rim& rim) const {
+    const std::vector<float>& error = shapes_[s].error;
+    return std::max(error[rim.triangles[0]], error[rim.triangles[1]]) +
+           std::sqrt(to_new_rim(s, point, rim));
+  }
+
   // How far the surface around may be from the input after the collapse; infinite as soon as it is
   // too much. Judged where surfaces part most: at the point that goes, and along new edges.
   [[nodiscard]] float error_after(int s, std::uint32_t point, std::uint32_t target, Star star,
@@ -193,6 +235,8 @@ class OverlayReduction {
     if (left < 0) return kTooMuch;
     const Vec3 &center = shape.positions[point], &apex = shape.positions[target];
     float nearest = glm::dot(apex - center, apex - center);
+    if (const OverlayStars::Rim& rim = stars_.rim())
+      nearest = std::min(nearest, to_new_rim(s, point, rim));
     for (const auto& spoke : star)
       if (spoke.a != target && spoke.b != target)
         nearest = std::min(nearest, distance2(apex - center, shape.positions[spoke.a] - center,
@@ -206,14 +250,40 @@ class OverlayReduction {
       for (const float along : {1 / 3.0f, 2 / 3.0f}) {
         const Vec3 place = apex + along * (shape.positions[spoke.a] - apex);
         float gap = kTooMuch;
-        for (const auto& other : star)
+        for (const auto& other : star) {
+          if (kBetween * gap <= farthest) break;
           gap = std::min(gap, distance2(center - place, shape.positions[other.a] - place,
                                         shape.positions[other.b] - place));
+        }
         farthest = std::max(farthest, kBetween * gap);
         if (farthest > left * left) return kTooMuch;
       }
     }
-    return inherited + std::sqrt(farthest);
+    widen_by_old_edges(shape, center, target, star, left * left, farthest);
+    return farthest > left * left ? kTooMuch : inherited + std::sqrt(farthest);
+  }
+
+  // Raises `farthest` to how far the edges that go are from the new star, squared; ends where that
+  // is more than enough. On a sharp ridge new edges can be near both sides and cut it off between
+  // its ends.
+  static void widen_by_old_edges(const Shape& shape, const Vec3& center, std::uint32_t target,
+                                 Star star, float enough, float& farthest) {
+    const Vec3& apex = shape.positions[target];
+    for (const auto& spoke : star) {
+      if (spoke.a == target) continue;
+      for (const float along : {1 / 3.0f, 2 / 3.0f}) {
+        const Vec3 place = center + along * (shape.positions[spoke.a] - center);
+        float gap = star.size() > 1 ? std::numeric_limits<float>::infinity() : 0.0f;
+        for (const auto& other : star) {
+          if (gap <= farthest) break;
+          if (other.a != target && other.b != target)
+            gap = std::min(gap, distance2(apex - place, shape.positions[other.a] - place,
+                                          shape.positions[other.b] - place));
+        }
+        farthest = std::max(farthest, gap);
+        if (farthest > enough) return;
+      }
+    }
   }
 
   // Whether a triangle of the star holds both.

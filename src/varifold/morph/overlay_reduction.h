@@ -18,6 +18,10 @@ struct OverlayTriangles {
   TriangleMesh mesh;
   std::vector<std::uint32_t> point_of_vertex;  ///< vertices of a point differ in attributes alone
   std::uint32_t point_count = 0;
+  /// Of a disc: the last triangles are a fan of its boundary about this point, with vertices of
+  /// their own. It stands for the border, is no part of the shapes, and is gone after a reduction.
+  std::uint32_t pole = kNone;
+  std::uint32_t fan_triangles = 0;
 };
 
 struct ReductionOptions {
@@ -35,8 +39,9 @@ struct ReductionReport {
 
 /// Collapses edges onto one of their ends, cheapest errors first in a few passes.
 ///
-/// The surface stays a closed manifold (link condition); seams and borders of materials collapse
-/// along themselves only. On both shapes a collapse moves the surface by no more than the
+/// The surface stays a closed manifold or a disc (link condition); the boundary, seams and borders
+/// of materials collapse along themselves only. The boundary curve, too, moves by no more than the
+/// tolerance. On both shapes a collapse moves the surface by no more than the
 /// tolerance, all that it inherits from collapses before added up, judged at the vertex that goes
 /// and along the new edges; turns no triangle by more than 75 degrees; and makes no needle
 /// that is worse than those at hand. Vertices are those of the input; unused ones are dropped.

@@ -2,6 +2,7 @@
 #include <varifold/morph/overlay_star.h>
 #include <algorithm>
 #include <array>
+#include <iterator>
 
 namespace varifold {
 namespace {
@@ -16,8 +17,15 @@ OverlayStars::OverlayStars(const OverlayTriangles& overlay)
     : corner_vertex_(overlay.mesh.indices),
       first_corner_(overlay.point_count, kNone),
       next_corner_(overlay.mesh.indices.size()),
-      mark_(overlay.point_count, 0) {
+      mark_(overlay.point_count, 0),
+      pole_(overlay.pole),
+      first_of_fan_(overlay.mesh.triangle_count() - overlay.fan_triangles) {
   if (overlay.mesh.ranges.size() > 1) material_of_ = triangle_materials(overlay.mesh);
+  // The boundary is the border of a material below.
+  if (overlay.fan_triangles > 0) {
+    material_of_.resize(first_of_fan_, 0);
+    material_of_.resize(overlay.mesh.triangle_count(), kNone);
+  }
   corner_point_.reserve(corner_vertex_.size());
   for (const std::uint32_t vertex : corner_vertex_)
     corner_point_.push_back(overlay.point_of_vertex[vertex]);
@@ -31,6 +39,9 @@ OverlayStars::OverlayStars(const OverlayTriangles& overlay)
 
 std::span<const OverlayStars::Spoke> OverlayStars::gather(std::uint32_t point) {
   star_.clear();
+  targets_.clear();
+  rim_ = {};
+  if (point == pole_) return {};
   // Triangles that are gone leave the list on the way.
   std::uint32_t* link = &first_corner_[point];
   while (*link != kNone) {
@@ -43,7 +54,24 @@ std::span<const OverlayStars::Spoke> OverlayStars::gather(std::uint32_t point) {
     star_.push_back({corner, corner_point_[a], corner_point_[b]});
     link = &next_corner_[corner];
   }
-  return star_;
+  // The fan comes last.
+  std::ptrdiff_t surface = std::ssize(star_);
+  for (std::ptrdiff_t i = 0; pole_ != kNone && i < surface;) {
+    const Spoke& spoke = star_[static_cast<std::size_t>(i)];
+    if (spoke.a != pole_ && spoke.b != pole_) {
+      ++i;
+      continue;
+    }
+    const std::size_t side = spoke.b == pole_ ? 0 : 1;
+    rim_.points[side] = side == 0 ? spoke.a : spoke.b;
+    rim_.triangles[side] = spoke.corner / 3;
+    std::rotate(star_.begin() + i, star_.begin() + i + 1, star_.begin() + surface--);
+  }
+  if (rim_)
+    targets_.assign(rim_.points.begin(), rim_.points.end());
+  else
+    for (const Spoke& spoke : star_) targets_.push_back(spoke.a);
+  return {star_.data(), static_cast<std::size_t>(surface)};
 }
 
 std::uint32_t OverlayStars::count_common(std::uint32_t point, std::uint32_t target) {
@@ -132,7 +160,7 @@ void OverlayStars::write(std::vector<std::uint32_t>& vertices,
                          std::vector<std::uint32_t>& triangles) const {
   vertices.clear();
   triangles.clear();
-  for (std::uint32_t corner = 0; corner < corner_point_.size(); corner += 3) {
+  for (std::uint32_t corner = 0; corner < 3 * first_of_fan_; corner += 3) {
     if (corner_point_[corner] == kNone) continue;
     vertices.insert(vertices.end(), corner_vertex_.begin() + corner,
                     corner_vertex_.begin() + corner + 3);

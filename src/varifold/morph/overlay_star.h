@@ -20,8 +20,23 @@ class OverlayStars {
   struct Spoke {
     std::uint32_t corner, a, b;
   };
-  /// The star of a point; empty where it is gone. Valid until the next call.
+  /// The star of a point, without the fan that closes a disc; empty where it is gone. Valid until
+  /// the next call.
   [[nodiscard]] std::span<const Spoke> gather(std::uint32_t point);
+
+  /// The neighbours of the centre of the star gathered last that it may collapse onto as far as the
+  /// boundary says: on it, the two others of it.
+  [[nodiscard]] std::span<const std::uint32_t> targets() const { return targets_; }
+
+  /// Of a point on the boundary, its neighbours there and the triangles of the fan on the edges to
+  /// them.
+  struct Rim {
+    std::array<std::uint32_t, 2> points{kNone, kNone};
+    std::array<std::uint32_t, 2> triangles{kNone, kNone};
+    explicit operator bool() const { return points[0] != kNone; }
+  };
+  /// Of the centre of the star gathered last; false where it is inside.
+  [[nodiscard]] const Rim& rim() const { return rim_; }
 
   /// Whether the surface and its seams stay sound when the centre of the star gathered last goes
   /// onto `target`, one of its neighbours.
@@ -48,7 +63,10 @@ class OverlayStars {
   std::vector<std::uint32_t> mark_;
   std::uint32_t stamp_ = 0;
   std::uint32_t live_points_ = 0;
+  std::uint32_t pole_, first_of_fan_;
   std::vector<Spoke> star_;
+  std::vector<std::uint32_t> targets_;
+  Rim rim_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> moved_;  // corners and their vertices
 };
 

@@ -4,20 +4,20 @@
 #include <varifold/mesh/validation.h>
 #include <varifold/mesh/vertex_arrays.h>
 #include <varifold/mesh/weld.h>
+#include <varifold/morph/double_edges.h>
 #include <varifold/morph/half_edge_matching.h>
 #include <varifold/morph/handle_loop.h>
 #include <varifold/morph/repair_sphere.h>
 #include <varifold/morph/sphere_triangulation.h>
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <numeric>
-#include <type_traits>
 #include <utility>
 
 namespace varifold {
 namespace {
 
-// How far copies of a point move towards the middle of their fan, as a part of the way.
-constexpr float kNudge = 1e-3f;
 constexpr int kMostHandles = 64;
 
 class SphereRepair {
@@ -36,7 +36,8 @@ class SphereRepair {
     if (of_handles) cut_handle();
     make_vertices();
     close_holes();
-    split_double_edges();
+    DoubleEdges doubled{result_.mesh, opposite_, point_of_, material_of_};
+    result_.report.split_points += doubled.split(options_.keep_longest_hole);
     set_result();
     return std::move(result_);
   }
@@ -149,23 +150,43 @@ class SphereRepair {
       result_.report.split_points += is_counted[point] ? 0 : 1;
       is_counted[point] = true;
       const Vec3 goal(middle[point] / static_cast<double>(neighbours[point]));
-      mesh.positions[v] += kNudge * (goal - mesh.positions[v]);
+      mesh.positions[v] += kRepairNudge * (goal - mesh.positions[v]);
     }
   }
 
   void close_holes() {
     std::vector<bool> is_closed(corners_.size(), false);
-    std::vector<std::uint32_t> loop;
+    std::vector<std::vector<std::uint32_t>> loops;
     const auto count = static_cast<std::uint32_t>(corners_.size());
     for (std::uint32_t first = 0; first < count; ++first) {
       if (opposite_[first] != kNone || is_closed[first]) continue;
-      loop.clear();
+      loops.emplace_back();
       for (std::uint32_t h = first; !is_closed[h]; h = next_open(h)) {
         is_closed[h] = true;
-        loop.push_back(h);
+        loops.back().push_back(h);
       }
-      if (loop.size() >= 3 && loop.size() <= options_.max_hole_edges) close_hole(loop);
     }
+    const std::size_t kept = options_.keep_longest_hole ? longest_of(loops) : loops.size();
+    for (std::size_t i = 0; i < loops.size(); ++i)
+      if (i != kept && loops[i].size() >= 3 && loops[i].size() <= options_.max_hole_edges)
+        close_hole(loops[i]);
+  }
+
+  std::size_t longest_of(const std::vector<std::vector<std::uint32_t>>& loops) {
+    std::size_t longest = loops.size();
+    double most = 0;
+    for (std::size_t i = 0; i < loops.size(); ++i) {
+      double length = 0;
+      for (const std::uint32_t h : loops[i])
+        length += glm::distance(mesh_.positions[corners_[h]],
+                                mesh_.positions[corners_[next_half_edge(h)]]);
+      if (length > most) most = length, longest = i;
+    }
+    if (longest == loops.size()) return longest;
+    result_.report.open_edges = static_cast<std::uint32_t>(loops[longest].size());
+    const double area = surface_area(result_.mesh);
+    if (area > 0) result_.report.openness = most / std::sqrt(4 * std::numbers::pi * area);
+    return longest;
   }
 
   // The open half-edge that begins where `open` ends, around the fan there.
@@ -199,75 +220,6 @@ class SphereRepair {
     }
     ++result_.report.closed_holes;
     result_.report.new_triangles += static_cast<std::uint32_t>(loop.size());
-  }
-
-  // Where two pairs of triangles hang together along one edge whose ends were not parted, all but
-  // the first pair get a vertex in the middle of theirs.
-  void split_double_edges() {
-    using Edge = std::pair<std::uint32_t, std::uint32_t>;
-    std::vector<std::pair<Edge, std::uint32_t>> edges;
-    for (std::uint32_t h = 0; h < opposite_.size(); ++h) {
-      const std::uint32_t from = point_of_[h], to = point_of_[next_half_edge(h)];
-      if (opposite_[h] != kNone && h < opposite_[h])
-        edges.push_back({{std::min(from, to), std::max(from, to)}, h});
-    }
-    std::sort(edges.begin(), edges.end());
-    std::vector<std::uint32_t> middle_of(result_.mesh.indices.size(), kNone);
-    for (std::size_t i = 1; i < edges.size(); ++i) {
-      if (edges[i].first != edges[i - 1].first) continue;
-      const std::uint32_t h = edges[i].second, other = opposite_[h];
-      const Vec3 nudge = 0.5f * kNudge * (opposite_corner(h) + opposite_corner(other));
-      for (const std::uint32_t side : {h, other}) middle_of[side] = add_middle(side, nudge);
-      ++result_.report.split_points;
-    }
-    if (result_.report.split_points > 0) cut_triangles(middle_of);
-  }
-
-  [[nodiscard]] const Vec3& opposite_corner(std::uint32_t half_edge) const {
-    const TriangleMesh& mesh = result_.mesh;
-    return mesh.positions[mesh.indices[next_half_edge(next_half_edge(half_edge))]];
-  }
-
-  // A vertex in the middle of an edge, with the attributes of one side.
-  std::uint32_t add_middle(std::uint32_t half_edge, const Vec3& nudge) {
-    TriangleMesh& mesh = result_.mesh;
-    const std::uint32_t from = mesh.indices[half_edge],
-                        to = mesh.indices[next_half_edge(half_edge)];
-    for_each_vertex_array(mesh, [&]<class Value>(std::vector<Value>& values) {
-      if constexpr (!std::is_same_v<Value, JointWeights>) {
-        if (values.empty()) return;
-        glm::vec<Value::length(), double> sum(values[from]);
-        sum += glm::vec<Value::length(), double>(values[to]);
-        values.push_back(Value(0.5 * sum));
-      }
-    });
-    // Summed in the order of the places, so that both sides agree bit by bit.
-    mesh.positions.back() = (1 - kNudge) * mesh.positions.back() + nudge;
-    if (mesh.has_normals()) mesh.normals.back() = normalize_or_zero(mesh.normals.back());
-    return mesh.vertex_count() - 1;
-  }
-
-  // Fans about the middles of edges that have one.
-  void cut_triangles(const std::vector<std::uint32_t>& middle_of) {
-    TriangleMesh& mesh = result_.mesh;
-    std::vector<std::uint32_t> indices, materials, polygon;
-    for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
-      polygon.clear();
-      std::size_t apex = 0;
-      for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
-        polygon.push_back(mesh.indices[h]);
-        if (middle_of[h] == kNone) continue;
-        apex = polygon.size();
-        polygon.push_back(middle_of[h]);
-      }
-      for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
-        indices.insert(indices.end(), {polygon[apex], polygon[(apex + i) % polygon.size()],
-                                       polygon[(apex + i + 1) % polygon.size()]});
-        materials.push_back(material_of_[t]);
-      }
-    }
-    mesh.indices = std::move(indices);
-    material_of_ = std::move(materials);
   }
 
   void set_result() {
@@ -324,7 +276,7 @@ Result<RepairedSphere> repair_to_sphere(const TriangleMesh& mesh, const RepairOp
   auto repaired = SphereRepair(at_rest, options).run();
   if (!repaired) return repaired;
   repaired = cut_handles(std::move(*repaired), options);
-  if (signed_volume(repaired->mesh) < 0) {
+  if (repaired->report.open_edges == 0 && signed_volume(repaired->mesh) < 0) {
     turn_inside_out(repaired->mesh);
     repaired->report.turned = true;
   }

@@ -1,4 +1,4 @@
-// Mends what keeps a mesh from being a sphere, as far as that is simple.
+// Mends what keeps a mesh from being a sphere or a disc, as far as that is simple.
 #pragma once
 
 #include <varifold/base/result.h>
@@ -12,6 +12,9 @@ struct RepairOptions {
   std::uint32_t max_hole_edges = 1000;
   /// Handles with a longer way around them are left: a part of the diagonal of the box.
   float max_handle = 0.05f;
+  /// For a disc: the longest hole stays open whatever its size, if there is one. Then handles are
+  /// not cut, and which side is outside is left as it is.
+  bool keep_longest_hole = false;
 };
 
 /// What was done; all zero for a sphere.
@@ -24,7 +27,11 @@ struct RepairReport {
   std::uint32_t closed_holes = 0;
   std::uint32_t new_triangles = 0;  ///< that close them
   std::uint32_t cut_handles = 0;
-  bool turned = false;  ///< it was inside out: all triangles were turned
+  bool turned = false;           ///< it was inside out: all triangles were turned
+  std::uint32_t open_edges = 0;  ///< of the hole that was kept; this is no change
+  /// Its length in proportion to that of a circle around the same area as the surface has: 1 for a
+  /// flat disc, 0.7 for half a sphere, more for what is long or jagged.
+  double openness = 0;
 
   [[nodiscard]] bool changed() const {
     return dropped_triangles + cut_edges + split_points + dropped_components + closed_holes +
@@ -50,7 +57,7 @@ struct RepairedSphere {
 /// holes. Greater ones are left; so are single turned triangles, as holes at most. A surface that
 /// is inside out is turned, with its normals: two that are not alike would morph into mirror
 /// images. Errors: kInvalidInput where indices or sizes of arrays are wrong, or nothing is left.
-/// O(n log n).
+/// O(n log n). With `keep_longest_hole` the surface has one hole after that, if it had one before.
 ///
 /// Based on: [GueziecTaubinLazarusHorn2001] for cutting and stitching.
 [[nodiscard]] Result<RepairedSphere> repair_to_sphere(const TriangleMesh& mesh,

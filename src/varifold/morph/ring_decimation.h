@@ -1,4 +1,5 @@
-// From a closed surface of genus 0 down to a tetrahedron, for what needs its topology alone.
+// From a closed surface of genus 0 down to a tetrahedron, or from a disc down to a cone, for what
+// needs its topology alone.
 #pragma once
 
 #include <varifold/base/math.h>
@@ -20,6 +21,7 @@ struct DecimationOptions {
   std::uint32_t least = 4;      ///< vertices to leave, 4 or more
   std::span<const Hold> holds;  ///< empty, or one for each vertex
   std::uint32_t late = 4;       ///< all free ones go first until so many vertices are left
+  bool onto_held = true;        ///< whether others may go onto those that are always held
   /// Directions of the vertices that a positive triangulation of the sphere is to remain with;
   /// empty: none.
   std::span<const SpherePoint> points;
@@ -39,5 +41,13 @@ struct DecimationOptions {
                                                             std::span<const Vec3> positions) {
   return decimate(mesh, positions);
 }
+
+/// The same for a disc that a fan about one more vertex closes: `is_fixed` says for every vertex
+/// whether it is of the boundary or that one, and these stay, until one other is left.
+///
+/// No edge inside may join two of the boundary. Then there is always an edge of two others that may
+/// be collapsed: of any, or of those within the innermost triangle around that is none of the mesh.
+[[nodiscard]] CollapseRecord decimate_to_cone(RingMesh& mesh, std::span<const Vec3> positions,
+                                              const std::vector<bool>& is_fixed);
 
 }  // namespace varifold

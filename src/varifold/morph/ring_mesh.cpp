@@ -9,6 +9,9 @@ namespace {
 
 using Ring = std::vector<std::uint32_t>;
 
+// Rings are searched as they are up to this product of their sizes.
+constexpr std::size_t kSorted = 2048;
+
 Ring::iterator place_of(Ring& ring, std::uint32_t vertex) {
   const auto place = std::find(ring.begin(), ring.end(), vertex);
   assert(place != ring.end());
@@ -47,9 +50,16 @@ RingMesh::RingMesh(std::span<const std::uint32_t> indices, std::uint32_t vertex_
 
 bool RingMesh::can_collapse(std::uint32_t vertex, std::uint32_t target) const {
   if (live_count_ <= 4) return false;
+  const Ring &ring = rings_[vertex], &others = rings_[target];
   std::uint32_t common = 0;
-  const Ring& others = rings_[target];
-  for (const std::uint32_t neighbour : rings_[vertex])
+  if (ring.size() * others.size() > kSorted) {
+    Ring few = ring.size() < others.size() ? ring : others;
+    std::sort(few.begin(), few.end());
+    for (const std::uint32_t neighbour : ring.size() < others.size() ? others : ring)
+      common += std::binary_search(few.begin(), few.end(), neighbour);
+    return common == 2;
+  }
+  for (const std::uint32_t neighbour : ring)
     common += std::find(others.begin(), others.end(), neighbour) != others.end();
   return common == 2;
 }

@@ -39,7 +39,7 @@ class RingMesh {
   [[nodiscard]] bool is_live(std::uint32_t vertex) const { return !rings_[vertex].empty(); }
 
   /// Whether the surface stays a triangulated one: the ends of the edge have two common
-  /// neighbours, and there are more than four vertices. O(product of the valences).
+  /// neighbours, and there are more than four vertices. O(v log v) of the valences.
   [[nodiscard]] bool can_collapse(std::uint32_t vertex, std::uint32_t target) const;
 
   /// Moves `vertex` onto its neighbour `target`, which can_collapse() must allow, and appends the

@@ -1,9 +1,10 @@
-// A closed surface of genus 0 laid onto the sphere, without folds.
+// A closed surface of genus 0 laid onto the sphere, or a disc onto half of it, without folds.
 #pragma once
 
 #include <varifold/base/progress.h>
 #include <varifold/base/result.h>
 #include <varifold/morph/sphere_point.h>
+#include <varifold/morph/sphere_surface.h>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -26,6 +27,13 @@ struct SphereEmbeddingOptions {
 /// Based on: [PraunHoppe2003] section 3.
 [[nodiscard]] Result<std::vector<SpherePoint>> embed_on_sphere(
     std::span<const std::uint32_t> indices, std::span<const Vec3> positions,
+    const SphereEmbeddingOptions& options = {});
+
+/// The same for a disc and the upper half of the sphere. `points` has a place for every point
+/// of disc.boundary, in their order on the equator (z = 0) and less than half a turn apart. No edge
+/// inside may join two of these, and no triangle may have three (disc_cuts.h).
+[[nodiscard]] Result<std::vector<SpherePoint>> embed_on_half_sphere(
+    const SphereSurface& disc, std::vector<SpherePoint> points,
     const SphereEmbeddingOptions& options = {});
 
 /// The triangles whose corners are not strictly counter-clockwise on the sphere; exact.

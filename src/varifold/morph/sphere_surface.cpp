@@ -1,6 +1,8 @@
 #include <varifold/mesh/topology.h>
 #include <varifold/mesh/validation.h>
 #include <varifold/morph/sphere_surface.h>
+#include <varifold/morph/sphere_triangulation.h>
+#include <algorithm>
 
 namespace varifold {
 namespace {
@@ -16,7 +18,7 @@ std::string place_of(const std::vector<Fault>& faults, const std::string& kind) 
   return "";
 }
 
-// What keeps a surface from being a sphere; empty where nothing does.
+// What keeps a surface from being a sphere or a disc; empty where nothing does.
 std::string fault_of(const TopologyReport& report, const std::vector<Fault>& faults) {
   if (report.triangles == 0) return "has no triangles";
   if (report.nonmanifold_edges > 0)
@@ -31,17 +33,46 @@ std::string fault_of(const TopologyReport& report, const std::vector<Fault>& fau
            place_of(faults, "misoriented_edge");
   if (report.components != 1)
     return counted(report.components, "component") + " where there must be one";
-  if (!report.closed)
+  if (!report.closed && report.boundary_loops != 1)
     return "open, with " + counted(report.boundary_loops, "hole") +
            place_of(faults, "boundary_edge");
-  if (report.genus() != 0)
+  if (!report.closed && report.euler_characteristic != 1)
+    return "open, with 1 hole and " +
+           counted(static_cast<std::uint64_t>((1 - report.euler_characteristic) / 2), "handle");
+  if (report.closed && report.genus() != 0)
     return "of genus " + std::to_string(report.genus().value_or(-1)) + ", not a sphere";
   return "";
 }
 
 }  // namespace
 
+std::vector<std::uint32_t> find_boundary(const SphereSurface& surface) {
+  const auto count = static_cast<std::uint32_t>(surface.positions.size());
+  const SphereTriangulation triangles(surface.indices, std::vector<SpherePoint>(count));
+  std::vector<std::uint32_t> next(count, kNone), loop;
+  std::uint32_t first = kNone;
+  for (std::uint32_t h = 0; h < surface.indices.size(); ++h)
+    if (triangles.opposite[h] == kNone) {
+      next[triangles.from(h)] = triangles.to(h);
+      first = std::min(first, triangles.from(h));
+    }
+  for (std::uint32_t point = first; point != kNone && loop.size() < count; point = next[point]) {
+    loop.push_back(point);
+    if (next[point] == first) break;
+  }
+  return loop;
+}
+
 Result<SphereSurface> as_sphere(const TriangleMesh& mesh, const std::string& name, int threads) {
+  auto surface = as_sphere_or_disc(mesh, name, threads);
+  if (surface && surface->is_disc())
+    return fail(ErrorKind::kInvalidInput,
+                name + ": open, with 1 hole" + place_of(validate(mesh, threads), "boundary_edge"));
+  return surface;
+}
+
+Result<SphereSurface> as_sphere_or_disc(const TriangleMesh& mesh, const std::string& name,
+                                        int threads) {
   const std::vector<Fault> faults = validate(mesh, threads);
   for (const Fault& fault : faults)
     if (fault.severity == Severity::kBroken)
@@ -71,6 +102,7 @@ Result<SphereSurface> as_sphere(const TriangleMesh& mesh, const std::string& nam
   }
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v)
     surface.point_of_vertex[v] = point_of[weld.class_of[v]];
+  if (!report.closed) surface.boundary = find_boundary(surface);
   return surface;
 }
 

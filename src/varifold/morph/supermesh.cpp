@@ -4,6 +4,7 @@
 //   the overlay is simplified.
 #include <varifold/base/parallel.h>
 #include <varifold/morph/correspondence.h>
+#include <varifold/morph/disc_pair.h>
 #include <varifold/morph/feature_warp.h>
 #include <varifold/morph/overlay_mesh.h>
 
@@ -58,12 +59,22 @@ class SupermeshBuilder {
   Result<void> check() {
     for (int i = 0; i < 2; ++i) {
       auto surface =
-          as_sphere(*meshes_[i], i == 0 ? "first mesh" : "second mesh", options_.threads);
+          as_sphere_or_disc(*meshes_[i], i == 0 ? "first mesh" : "second mesh", options_.threads);
       if (!surface) return tl::unexpected(std::move(surface.error()));
       surfaces_[i] = std::move(*surface);
       result_.report.input_vertices[i] = static_cast<std::uint32_t>(surfaces_[i].positions.size());
       result_.report.input_triangles[i] = static_cast<std::uint32_t>(surfaces_[i].triangles.size());
     }
+    if (surfaces_[0].is_disc() != surfaces_[1].is_disc())
+      return fail(ErrorKind::kInvalidInput,
+                  surfaces_[0].is_disc()
+                      ? "first mesh: open, with 1 hole, but the second mesh is closed"
+                      : "second mesh: open, with 1 hole, but the first mesh is closed");
+    result_.report.are_discs = of_discs();
+    return check_features();
+  }
+
+  Result<void> check_features() {
     for (const auto& [in_a, in_b] : options_.features) {
       FeaturePoint points{kNone, kNone};
       if (in_a < meshes_[0]->vertex_count()) points.first = surfaces_[0].point_of_vertex[in_a];
@@ -81,22 +92,75 @@ class SupermeshBuilder {
     return {};
   }
 
+  [[nodiscard]] bool of_discs() const { return surfaces_[0].is_disc(); }
+
+  Result<void> lay_discs() {
+    for (std::size_t i = 0; i < 2; ++i)
+      discs_.maps[i].disc = to_disc_mesh(*meshes_[i], surfaces_[i]);
+    return lay_boundaries(discs_, features_);
+  }
+
   Result<void> embed() {
+    if (auto laid = of_discs() ? embed_discs() : embed_spheres(); !laid) return laid;
+    result_.report.embed_seconds = watch_.lap();
+    return {};
+  }
+
+  Result<void> embed_spheres() {
     CorrespondenceOptions correspondence;
     correspondence.features = features_;
     correspondence.threads = options_.threads;
     correspondence.progress = [&](float done) {
       return report(options_.progress, "embed", 0.6f * done);
     };
-    const std::array<SurfaceView, 2> views{
-        SurfaceView{surfaces_[0].indices, surfaces_[0].positions},
-        SurfaceView{surfaces_[1].indices, surfaces_[1].positions}};
-    auto found = find_correspondence(views, correspondence);
+    auto found = find_correspondence({view_of(0), view_of(1)}, correspondence);
     if (!found) return tl::unexpected(std::move(found.error()));
     for (int i = 0; i < 2; ++i) points_[i] = std::move(found->points[i]);
     result_.report.feature_distance = found->feature_distance;
     result_.report.distortion = found->distortion;
-    result_.report.embed_seconds = watch_.lap();
+    return {};
+  }
+
+  Result<void> embed_discs() {
+    if (auto laid = lay_discs(); !laid) return laid;
+    Result<std::vector<SpherePoint>> found[2];
+    // The callback belongs to the caller's thread, which maps the first surface.
+    std::atomic<bool> is_cancelled = false;
+    SphereEmbeddingOptions quiet, loud;
+    quiet.progress = [&](float) { return !is_cancelled; };
+    loud.progress = [&](float done) {
+      if (!report(options_.progress, "embed", 0.5f * done)) is_cancelled = true;
+      return !is_cancelled;
+    };
+    const auto embed_one = [&](int i, const SphereEmbeddingOptions& embedding) {
+      const DiscMap& map = discs_.maps[static_cast<std::size_t>(i)];
+      found[i] = embed_on_half_sphere(map.disc.surface, map.points, embedding);
+    };
+    parallel_both(
+        options_.threads, [&] { embed_one(0, loud); }, [&] { embed_one(1, quiet); });
+    for (int i = 0; i < 2; ++i) {
+      if (!found[i])
+        return fail_in(i == 0 ? "first mesh" : "second mesh", std::move(found[i].error()));
+      points_[i] = std::move(*found[i]);
+    }
+    return align_discs();
+  }
+
+  // Both are closed below after that.
+  Result<void> align_discs() {
+    for (std::size_t i = 0; i < 2; ++i) discs_.maps[i].points = std::move(points_[i]);
+    const auto meeting = bring_together(discs_);
+    if (!meeting) return tl::unexpected(meeting.error());
+    result_.report.feature_distance = meeting->feature_distance;
+    shared_ = merge_boundaries(discs_.maps[0], discs_.maps[1]);
+    for (std::size_t i = 0; i < 2; ++i) {
+      CappedDisc disc = capped(std::move(discs_.maps[i]));
+      cut_meshes_[i] = std::move(disc.mesh);
+      meshes_[i] = &cut_meshes_[i];
+      surfaces_[i] = std::move(disc.surface);
+      points_[i] = std::move(disc.points);
+      is_fixed_[i] = std::move(disc.is_fixed);
+    }
     return {};
   }
 
@@ -106,7 +170,7 @@ class SupermeshBuilder {
     for (int attempt = 0; attempt <= kNudges; ++attempt, nudge *= 4) {
       const SphereTriangulation a(surfaces_[0].indices, points_[0]),
           b(surfaces_[1].indices, points_[1]);
-      const auto crossings = find_crossings(a, b, options_.threads);
+      const auto crossings = find_crossings(a, b, options_.threads, shared_);
       if (!crossings) {
         jitter(map_of(1), nudge, static_cast<std::uint64_t>(attempt) + 1);
         continue;
@@ -158,8 +222,11 @@ class SupermeshBuilder {
     for (Vec3& n : pose.normals) n = Vec3(rotated(similarity.turn, DVec3(n)));
   }
 
+  SurfaceView view_of(int i) const { return {surfaces_[i].indices, surfaces_[i].positions}; }
+
   MutableSphereMap map_of(int i) {
-    return {surfaces_[i].indices, surfaces_[i].positions, points_[i]};
+    return {surfaces_[i].indices, surfaces_[i].positions, points_[i],
+            of_discs() ? &is_fixed_[i] : nullptr};
   }
 
   const TriangleMesh* meshes_[2];
@@ -167,6 +234,10 @@ class SupermeshBuilder {
   SphereSurface surfaces_[2];
   std::vector<FeaturePoint> features_;  // as points
   std::vector<SpherePoint> points_[2];
+  DiscPair discs_;
+  SharedPoints shared_;         // of discs
+  TriangleMesh cut_meshes_[2];  // discs with the vertices of both boundaries
+  std::vector<bool> is_fixed_[2];
   OverlayTriangles overlay_;
   Stopwatch watch_;
   Supermesh result_;

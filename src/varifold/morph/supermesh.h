@@ -11,7 +11,8 @@
 namespace varifold {
 
 struct SupermeshOptions {
-  /// Vertices of a and b that shall become one in the morph.
+  /// Vertices of a and b that shall become one in the morph. Of discs, those on the boundary must
+  /// be on both boundaries and come in the same order there.
   std::vector<FeaturePoint> features;
   /// The overlay is simplified while each shape stays this near its input, as a part of the
   /// diagonal of its box. 0: every vertex of the overlay is kept.
@@ -36,6 +37,7 @@ struct Similarity {
 
 /// What went in and what came of it.
 struct SupermeshReport {
+  bool are_discs = false;                    ///< and not spheres
   std::uint32_t input_vertices[2] = {0, 0};  ///< points of a and b: position classes
   std::uint32_t input_triangles[2] = {0, 0};
   std::uint32_t crossings = 0;          ///< of edges of a with edges of b
@@ -61,17 +63,20 @@ struct Supermesh {
 /// Builds the mesh that is both a and b: at rest its surface is that of a, in pose 0 that of b,
 /// up to the tolerance and the rounding of floats; in between vertices go straight.
 ///
-/// Both are laid onto the sphere, that of b is turned and bent until features meet (without any,
-/// until the shapes are alike), and the maps are laid over each other. No triangle of either folds
+/// Both must be closed, or both discs: with one boundary loop, which becomes that of the other one.
+/// They are laid onto the sphere, or discs onto half of it with their boundaries on the equator;
+/// the map of b is turned and bent until features meet (without any, until the shapes are alike),
+/// and the maps are laid over each other. No triangle of either folds
 /// on the sphere; signs are exact. Normals, texture coordinates, colours and materials come from a
 /// (one mesh has one set of them), normals of the pose from b where both have normals; the rest of
 /// b's attributes is dropped, as are skins and poses of the inputs.
 ///
-/// Errors: kInvalidInput where one is not closed, manifold, oriented, of one component and genus 0
-/// (repair_sphere.h mends what is simply mended), or a feature is no vertex; kFailed where a
-/// surface needs more than the resolution of the sphere; kCancelled. O(n log n + crossings).
-/// The same bytes for any number of threads.
-/// Source: [Ramos2008] section 6.3.1, after [KentCarlsonParent1992] and [Alexa2000].
+/// Errors: kInvalidInput where one is not manifold, oriented, of one component and a sphere
+/// (closed, of genus 0) or a disc (one boundary loop, Euler characteristic 1; repair_sphere.h mends
+/// what is simply mended), where they are not the same of these, or a feature is no vertex; kFailed
+/// where a surface needs more than the resolution of the sphere; kCancelled. O(n log n +
+/// crossings). The same bytes for any number of threads. Source: [Ramos2008] section 6.3.1, after
+/// [KentCarlsonParent1992] and [Alexa2000].
 [[nodiscard]] Result<Supermesh> build_supermesh(const TriangleMesh& a, const TriangleMesh& b,
                                                 const SupermeshOptions& options = {});
 
