@@ -10,7 +10,7 @@ mkdir -p "$out"
 # Of base, mesh and simplify what the runtime uses; of each model everything but its build.
 sources="src/varifold/base/checksum.cpp src/varifold/base/parallel.cpp"
 sources="$sources src/varifold/mesh/triangle_mesh.cpp src/varifold/mesh/weld.cpp"
-sources="$sources src/varifold/mesh/vertex_arrays.cpp"
+sources="$sources src/varifold/mesh/pose_blend.cpp src/varifold/mesh/vertex_arrays.cpp"
 sources="$sources src/varifold/simplify/target_tree.cpp"
 sources="$sources $(git ls-files 'src/varifold/simplify/sequence_*.cpp' | grep -v sequence_builder)"
 sources="$sources $(git ls-files 'src/varifold/view/*.cpp')"
