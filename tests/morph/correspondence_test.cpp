@@ -3,6 +3,7 @@
 #include <varifold/base/random.h>
 #include <varifold/morph/correspondence.h>
 #include <varifold/morph/limb_pairs.h>
+#include <varifold/morph/separate_maps.h>
 #include <varifold/morph/sphere_embedding.h>
 #include <varifold/morph/supermesh.h>
 #include <varifold/morph/surface_lift.h>
@@ -58,8 +59,7 @@ Animal animal(std::uint32_t triangles, float bend, std::uint64_t seed) {
 SurfaceView view_of(const TriangleMesh& mesh) { return {mesh.indices, mesh.positions}; }
 
 // Where the place of a vertex of a is on b.
-DVec3 met_by(const Correspondence& found, const Animal& a, const Animal& b, std::uint32_t vertex) {
-  (void)a;
+DVec3 met_by(const Correspondence& found, const Animal& b, std::uint32_t vertex) {
   const SphereTriangulation sphere(b.mesh.indices, found.points[1]);
   const SurfaceLift lift(sphere, b.mesh.positions);
   std::uint32_t triangle = 0;
@@ -76,7 +76,7 @@ TEST(Correspondence, LimbsFindEachOther) {
       EXPECT_EQ(count_flipped_on_sphere(s == 0 ? a.mesh.indices : b.mesh.indices, found->points[s]),
                 0u);
     for (std::size_t i = 0; i < a.tips.size(); ++i)
-      EXPECT_LT(glm::distance(met_by(*found, a, b, a.tips[i]), DVec3(b.mesh.positions[b.tips[i]])),
+      EXPECT_LT(glm::distance(met_by(*found, b, a.tips[i]), DVec3(b.mesh.positions[b.tips[i]])),
                 0.25 * kLengths[i])
           << "limb " << i;
     EXPECT_LT(found->distortion, 0.5);
@@ -107,6 +107,28 @@ TEST(Correspondence, FeaturesMeetWhereverTheyAre) {
     EXPECT_EQ(found->feature_distance, 0);
     for (const auto& [in_a, in_b] : features)
       EXPECT_EQ(found->points[0][in_a], found->points[1][in_b]);
+  }
+}
+
+TEST(SeparateMaps, ArePositiveAndTurnedTogether) {
+  const Animal a = animal(1'200, 0, 1), b = animal(1'200, 0.05f, 2);
+  for (const bool has_features : {false, true}) {
+    const std::vector<FeaturePoint> features{{a.tips[0], b.tips[0]}, {a.tips[1], b.tips[1]}};
+    CorrespondenceOptions options;
+    if (has_features) options.features = features;
+    const auto found = map_separately({view_of(a.mesh), view_of(b.mesh)}, options);
+    ASSERT_TRUE(found) << found.error().message;
+    EXPECT_EQ(count_flipped_on_sphere(a.mesh.indices, found->points[0]), 0u);
+    EXPECT_EQ(count_flipped_on_sphere(b.mesh.indices, found->points[1]), 0u);
+    double mean = 0;
+    for (std::size_t i = 0; i < a.tips.size(); ++i)
+      mean += 0.2 * glm::distance(met_by(*found, b, a.tips[i]), DVec3(b.mesh.positions[b.tips[i]]));
+    EXPECT_LT(mean, 1.5);  // tips are up to 6 apart
+    if (has_features) {
+      EXPECT_EQ(found->feature_distance, 0);
+      for (const auto& [in_a, in_b] : features)
+        EXPECT_EQ(found->points[0][in_a], found->points[1][in_b]);
+    }
   }
 }
 

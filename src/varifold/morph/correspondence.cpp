@@ -3,6 +3,7 @@
 #include <varifold/base/parallel.h>
 #include <varifold/morph/correspondence.h>
 #include <varifold/morph/limb_pairs.h>
+#include <varifold/morph/separate_maps.h>
 #include <varifold/morph/sphere_embedding.h>
 #include <algorithm>
 #include <cmath>
@@ -115,6 +116,7 @@ class CorrespondenceFinder {
     const std::vector<LimbPairs> bases = features_.size() >= 4
                                              ? widest_fours(views, features_, kWays)
                                              : pair_limbs(views, limbs_, turn_of_b_, kWays);
+    ways.reserve(bases.size() + 1);
     for (const LimbPairs& base : bases) ways.push_back({.base = base, .has_base = true});
     ways.push_back({});
     return ways;
@@ -258,7 +260,9 @@ class CorrespondenceFinder {
 
 Result<Correspondence> find_correspondence(const std::array<SurfaceView, 2>& surfaces,
                                            const CorrespondenceOptions& options) {
-  return CorrespondenceFinder(surfaces, options).run();
+  auto found = CorrespondenceFinder(surfaces, options).run();
+  if (!found && found.error().kind == ErrorKind::kFailed) return map_separately(surfaces, options);
+  return found;
 }
 
 }  // namespace varifold

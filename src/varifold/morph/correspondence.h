@@ -32,7 +32,8 @@ struct Correspondence {
 /// each alone says that brings shapes together best; and with four ends of limbs of the one on four
 /// of the other, for those pairs whose distances along the surfaces, and places, are most alike.
 /// With four features or more, with four of these on each other. The way with the least distortion,
-/// and distance between places that meet where shapes stand alike, is taken, and refined.
+/// and distance between places that meet where shapes stand alike, is taken, and refined. Where the
+/// sphere has too little room for that, maps are made as by map_separately().
 ///
 /// The surfaces must be closed, oriented, connected manifolds of genus 0 over vertices that are all
 /// used; positions finite. Errors: kFailed where the resolution of the sphere (1e-12) does not

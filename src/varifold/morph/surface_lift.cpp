@@ -54,7 +54,7 @@ DVec3 SurfaceLift::at(const DVec3& point, std::uint32_t& triangle) const {
     const std::uint32_t exit = first + static_cast<std::uint32_t>((least + 1) % 3);
     triangle = sphere_.opposite[exit] / 3;
   }
-  return DVec3(positions_[sphere_.indices[3 * triangle]]);
+  return DVec3(positions_[sphere_.indices[std::size_t{3} * triangle]]);
 }
 
 }  // namespace varifold
