@@ -9,7 +9,7 @@ help:
 	@echo "make test    build and run the tests"
 	@echo "make build   build the tool: build/release/bin/varifold"
 	@echo "make bench   build and run the benchmarks (BENCH=regular_expression picks some)"
-	@echo "make figures draw what is in docs/pictures/strips and patch_tree (needs the real meshes)"
+	@echo "make figures draw what is in docs/pictures/strips, deforming and patch_tree (needs the real meshes)"
 	@echo "make deps    install the Debian packages of packages.txt that are missing"
 	@echo "make format  format all sources with clang-format"
 	@echo "make tidy    check all sources with clang-tidy"
@@ -35,6 +35,8 @@ bench: deps
 figures: build
 	python3 benchmarks/figures/strip_figures.py build/release/bin/varifold \
 	  "$(or $(VARIFOLD_MESHES),../shared/meshes)" docs/pictures/strips
+	python3 benchmarks/figures/morph_figures.py build/release/bin/varifold \
+	  "$(or $(VARIFOLD_MESHES),../shared/meshes)" docs/pictures/deforming
 	python3 benchmarks/figures/patch_figures.py build/release/bin/varifold \
 	  "$(or $(VARIFOLD_MESHES),../shared/meshes)" docs/pictures/patch_tree
 	@sh cmake/build_preset.sh bench varifold_patch_pixel_error

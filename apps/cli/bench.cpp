@@ -224,8 +224,12 @@ Result<Json> bench_model(const BenchCommand& command, const AnyModel& any, Bench
   return std::visit(
       [&]<class Model>(const std::shared_ptr<const Model>& model) -> Result<Json> {
         if (command.is_camera_test()) return bench_camera<Model>(command, model, device);
-        if (command.test.name == "morph")
-          return MorphWalk<Model>(model, command.test.steps, device).run();
+        if (command.test.name == "morph") {
+          const ListOptions lists{.arrays = command.camera.lists.arrays};
+          auto result = MorphWalk<Model>(model, command.test.steps, lists, device).run();
+          if (result) (*result)["draw"] = device ? drawn_as<Model>(command) : "none";
+          return result;
+        }
         return BenchWalk<Model>(command, model, device).run();
       },
       any);

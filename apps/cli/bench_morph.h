@@ -30,10 +30,11 @@ inline constexpr double kFramesPerSecond = 24;
 template <class Model>
 class MorphWalk {
  public:
-  MorphWalk(const std::shared_ptr<const Model>& model, std::uint32_t frames, BenchDevice* device)
+  MorphWalk(const std::shared_ptr<const Model>& model, std::uint32_t frames,
+            const ListOptions& lists, BenchDevice* device)
       : model_(model),
         instance_(model),
-        lists_(model, ListOptions{.arrays = true}),
+        lists_(model, lists),
         frames_(std::max(2u, frames)),
         device_(device) {
     for (std::uint32_t i = 0; i < frames_; ++i)
@@ -80,7 +81,7 @@ class MorphWalk {
     const double seconds = watch.seconds();
     extraction_ += seconds;
     ++steps_;
-    indices_ += submitted_indices(list_.list).indices;
+    indices_ += submitted_indices(list_).indices;
     collapses_ += level > before_ ? level - before_ : before_ - level;
     before_ = level;
     return seconds;
@@ -91,10 +92,12 @@ class MorphWalk {
     const std::uint32_t level = model_->level_for_fraction(fraction);
     static_cast<void>(extract(0, level));
     double sum = 0, greatest = 0;
+    Json frames = Json::array();
     for (std::uint32_t frame = 0; frame < frames_; ++frame) {
       const double seconds = extract(frame, level);
       sum += seconds;
       greatest = std::max(greatest, seconds);
+      frames.push_back(1e3 * seconds);
     }
     const double mean = sum / frames_;
     return {{"fraction", fraction},
@@ -102,25 +105,34 @@ class MorphWalk {
             {"mean_ms", 1e3 * mean},
             {"greatest_ms", 1e3 * greatest},
             {"mean_share_of_frame", mean * kFramesPerSecond},
-            {"greatest_share_of_frame", greatest * kFramesPerSecond}};
+            {"greatest_share_of_frame", greatest * kFramesPerSecond},
+            {"frames_ms", std::move(frames)}};
   }
 
   // Figure 6.7b: coarser every 24 frames, drawn where there is a device.
   Result<Json> level_every_second() {
     constexpr std::uint32_t kPerLevel = 24, kLevels = 10;
     double extraction = 0, drawing = 0, greatest = 0;
-    for (std::uint32_t i = 0; i < kPerLevel * kLevels; ++i) {
-      const std::uint32_t coarser = i / kPerLevel;
+    Json levels = Json::array();
+    for (std::uint32_t coarser = 0; coarser < kLevels; ++coarser) {
       const float fraction = 1 - static_cast<float>(coarser) / kLevels;
-      const std::uint32_t frame = i % frames_;
-      const double seconds = extract(frame, model_->level_for_fraction(fraction));
-      extraction += seconds;
-      greatest = std::max(greatest, seconds);
-      if (!device_) continue;
-      device_->set_pose({weights_[frame], {}});
-      const Stopwatch watch;
-      if (auto drawn = device_->draw(list_); !drawn) return tl::unexpected(drawn.error());
-      drawing += watch.seconds();
+      const std::uint32_t level = model_->level_for_fraction(fraction);
+      double extracted = 0, drawn = 0;
+      for (std::uint32_t i = 0; i < kPerLevel; ++i) {
+        const std::uint32_t frame = (coarser * kPerLevel + i) % frames_;
+        const double seconds = extract(frame, level);
+        extracted += seconds;
+        greatest = std::max(greatest, seconds);
+        auto shown = draw(frame);
+        if (!shown) return tl::unexpected(shown.error());
+        drawn += *shown;
+      }
+      levels.push_back({{"fraction", fraction},
+                        {"triangles", model_->triangle_count(level)},
+                        {"extraction_ms", 1e3 * extracted / kPerLevel},
+                        {"drawing_ms", device_ ? Json(1e3 * drawn / kPerLevel) : Json()}});
+      extraction += extracted;
+      drawing += drawn;
     }
     drawing_ += drawing;
     const double frames = kPerLevel * kLevels;
@@ -129,7 +141,17 @@ class MorphWalk {
                 {"seconds_drawing", device_ ? Json(drawing) : Json()},
                 {"greatest_share_of_frame", greatest * kFramesPerSecond},
                 {"mean_share_of_frame", extraction / frames * kFramesPerSecond},
-                {"frames_per_second", device_ ? Json(frames / (extraction + drawing)) : Json()}};
+                {"frames_per_second", device_ ? Json(frames / (extraction + drawing)) : Json()},
+                {"levels", std::move(levels)}};
+  }
+
+  // Seconds; 0 without a device.
+  Result<double> draw(std::uint32_t frame) {
+    if (!device_) return 0;
+    device_->set_pose({weights_[frame], {}});
+    const Stopwatch watch;
+    if (auto drawn = device_->draw(list_); !drawn) return tl::unexpected(drawn.error());
+    return watch.seconds();
   }
 
   // What the vertex shader saves.

@@ -61,7 +61,7 @@ CommandResult extract_from(const ExtractCommand& command, const std::shared_ptr<
   warn_of_base(command.input, command.level, model->vertex_count(0), model->triangle_count(0));
   const std::optional<StripJoin> join = strip_join(command.strips, output);
   StripMesh level = level_mesh(instance, join);
-  if (!command.pose.empty()) level.mesh = frozen(std::move(level.mesh), pose);
+  if (!command.pose.empty()) level.mesh = frozen(level.mesh, pose);
   const TriangleMesh& mesh = level.mesh;
   if (auto written = write_mesh_loudly(mesh, output, join ? &level.strips : nullptr); !written)
     return tl::unexpected(written.error());

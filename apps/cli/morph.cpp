@@ -157,7 +157,6 @@ void report_supermesh(const Supermesh& super, Report& report) {
   report.set("flipped_on_sphere", told.flipped_on_sphere);
   report.set("feature_distance", told.feature_distance);
   report.set("embed_seconds", told.embed_seconds);
-  report.set("align_seconds", told.align_seconds);
   report.set("overlay_seconds", told.overlay_seconds);
   report.set("reduce_seconds", told.reduce_seconds);
 }

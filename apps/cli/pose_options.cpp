@@ -135,29 +135,18 @@ ChosenPose choose_pose(const std::string& input, const TriangleMesh& mesh,
   return chosen;
 }
 
-TriangleMesh frozen(TriangleMesh mesh, const ChosenPose& pose) {
+TriangleMesh frozen(const TriangleMesh& mesh, const ChosenPose& pose) {
   if (pose.moves_rig) return posed_mesh(mesh, pose.animation, pose.time);
-  PosedVertices vertices = blend_poses(mesh, pose.weights);
-  mesh.positions = std::move(vertices.positions);
-  mesh.normals = std::move(vertices.normals);
-  mesh.poses.clear();
-  mesh.skin.clear();
-  mesh.rig.reset();
-  return mesh;
+  return blended_mesh(mesh, pose.weights);
 }
 
 ShownPose shown_pose(const TriangleMesh& mesh, const ChosenPose& pose) {
-  ShownPose shown;
-  shown.weights = pose.weights;
-  if (pose.moves_rig) {
-    RigPose rig = pose_rig(mesh, pose.animation, pose.time);
-    shown.weights = std::move(rig.weights);
-    shown.joints = std::move(rig.joints);
-  }
-  PosedVertices vertices = blend_poses(mesh, shown.weights);
-  if (!shown.joints.empty() && mesh.has_skin()) skin_vertices(mesh.skin, shown.joints, vertices);
-  shown.positions = std::move(vertices.positions);
-  return shown;
+  RigPose rig;
+  rig.weights = pose.weights;
+  if (pose.moves_rig) pose_rig(mesh, pose.animation, pose.time, rig);
+  PosedVertices vertices;
+  posed_vertices(mesh, rig, vertices);
+  return {std::move(rig.weights), std::move(rig.joints), std::move(vertices.positions)};
 }
 
 }  // namespace varifold::cli

@@ -70,7 +70,7 @@ void go_to_pose(Instance& instance, const ChosenPose& pose) {
 }
 
 /// The mesh frozen in the pose: its places and normals, without poses, skin and rig. O(mesh).
-[[nodiscard]] TriangleMesh frozen(TriangleMesh mesh, const ChosenPose& pose);
+[[nodiscard]] TriangleMesh frozen(const TriangleMesh& mesh, const ChosenPose& pose);
 
 /// What the vertex shader is told of a pose, and where it takes the vertices, for a camera.
 struct ShownPose {

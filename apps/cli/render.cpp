@@ -162,7 +162,9 @@ void blend(const RenderCommand& command, const Camera& camera, const ChosenLevel
       morph_range(camera, PatchMeasure::kPixels, chosen.pixel_error, command.morph_band);
   scene.drawn.patch_style.morph = range;
   PatchMotion motion(std::shared_ptr<const PatchTree>(std::shared_ptr<void>(), &tree));
-  const PatchMotion::Frame told = motion.next(*scene.drawn.patches, range, camera);
+  PatchDrawList posed = *scene.drawn.patches;
+  posed.positions = scene.pose->positions;
+  const PatchMotion::Frame told = motion.next(posed, range, camera);
   report.count("moving_vertices", "vertices on their way", told.moving);
   report.count("turned_triangles", "triangles turned over", told.turned);
 }
@@ -222,8 +224,7 @@ CommandResult render_level(const RenderCommand& command, const std::shared_ptr<c
   if (chosen.error) report.length("error", "error", *chosen.error);
   report_budget(command.level, chosen, report);
   report.length("pixel_error", "error in pixels", chosen.pixel_error);
-  // Patches in one call do not blend poses; arrays do.
-  ListOptions how{.arrays = command.arrays || !command.pose.empty()};
+  ListOptions how{.arrays = command.arrays};
   if (command.morph) how.morphs = PatchMeasure::kPixels;
   FrameLists<Model> lists(model, how);
   if constexpr (DrawsPatches<Model>) instance.set_switches(!command.no_border_switch);

@@ -10,7 +10,10 @@
 #include <varifold/mesh/generators.h>
 #include <varifold/mesh/pose_blend.h>
 #include <varifold/mesh/rig_pose.h>
+#include <varifold/render/image_difference.h>
+#include <varifold/render/png.h>
 #include <algorithm>
+#include <span>
 
 namespace varifold {
 namespace {
@@ -106,7 +109,9 @@ TEST_P(Posed, TheMorphTestTellsSharesOfFrames) {
   ASSERT_EQ(bench["constant_levels"].size(), 10u);
   EXPECT_EQ(bench["constant_levels"][0]["triangles"], 2000);
   EXPECT_LT(bench["constant_levels"][9]["triangles"], 500);
+  EXPECT_EQ(bench["constant_levels"][3]["frames_ms"].size(), 9u);
   EXPECT_EQ(bench["level_every_24_frames"]["frames"], 240);
+  EXPECT_EQ(bench["level_every_24_frames"]["levels"].size(), 10u);
   EXPECT_GT(bench["seconds_extraction"], 0);
   (void)make_model("torus", "60");
   const ToolResult still = run_tool({"bench", path("m.vfm"), "--test", "morph"});
@@ -181,6 +186,35 @@ TEST_F(PoseFiles, PicturesOfPosesAndSheets) {
   EXPECT_EQ(sheet.json()["row_triangles"][0], 320);
   EXPECT_EQ(render({"--sheet", "1", "--lod", "1"}).exit_code, 2);
   EXPECT_EQ(render({"--lod", "1", "--columns", "4"}).exit_code, 2);
+}
+
+// A patch tree by one call, by index arrays, and with geomorphs: in the pose all show the same.
+TEST_F(PoseFiles, PicturesOfPatchesInPoses) {
+  ASSERT_TRUE(write_mesh(test::with_poses(test::icosphere(5000), 2, 1, 0.1f), path("a.glb")));
+  ASSERT_EQ(run_tool({"build", "patchtree", path("a.glb"), "--patch-triangles", "64", "-o",
+                      path("m.vfm")})
+                .exit_code,
+            0);
+  const auto picture = [&](std::vector<std::string> options) {
+    const std::string file = path("p.png");
+    options.insert(options.begin(), {"render", path("m.vfm"), "-o", file, "--size", "160x120",
+                                     "--pixels", "2", "--supersampling", "1"});
+    const ToolResult result = run_tool(options);
+    if (result.exit_code != 0) return Result<Image8>(fail(ErrorKind::kFailed, result.err));
+    const std::string bytes = test::bytes_of(file);
+    return read_png(std::as_bytes(std::span(bytes)));
+  };
+  const auto at_rest = picture({});
+  if (!at_rest && at_rest.error().message.find("OpenGL") != std::string::npos)
+    GTEST_SKIP() << "no OpenGL here: " << at_rest.error().message;
+  const auto by_call = picture({"--blend", "0.3,0.6"});
+  const auto by_arrays = picture({"--blend", "0.3,0.6", "--arrays"});
+  const auto with_morphs = picture({"--blend", "0.3,0.6", "--morph", "--morph-band", "1.5"});
+  ASSERT_TRUE(at_rest && by_call && by_arrays && with_morphs);
+  EXPECT_LE(image_difference(*by_call, *by_arrays, 6)->part_above, 5e-4);
+  EXPECT_GT(image_difference(*by_call, *at_rest, 6)->part_above, 0.02);
+  EXPECT_LE(image_difference(*by_call, *with_morphs, 40)->part_above, 0.02);
+  EXPECT_NE(*by_call, *with_morphs);
 }
 
 TEST_F(PoseFiles, MovedVerticesHaveNoPoses) {

@@ -4,6 +4,7 @@
 #include <tests/models/level_checks.h>
 #include <tests/support/greedy_strips.h>
 #include <tests/support/meshes.h>
+#include <tests/support/poses.h>
 #include <varifold/base/random.h>
 #include <varifold/io/any_model.h>
 #include <varifold/measure/check_model.h>
@@ -143,6 +144,17 @@ TEST(CheckModel, FindsErrorsThatAreTooSmall) {
                      data.error_is_measured = false;
                    }),
                    "error_exceeded"));
+}
+
+// A flat mesh along no axis: distances are what floats round away.
+TEST(CheckModel, FlatMeshesAreSound) {
+  for (std::uint64_t seed = 1; seed < 8; ++seed) {
+    TriangleMesh mesh = test::grid(20, 20);
+    mesh.positions = test::turned_pose(mesh, seed, 0.7f).positions;
+    const auto check = check_progressive_mesh(model_of(mesh));
+    ASSERT_TRUE(check);
+    EXPECT_TRUE(is_sound(check->faults)) << listed(check->faults);
+  }
 }
 
 // A dart, whose middle M collapses onto a wing: (B, C, D) turns over.

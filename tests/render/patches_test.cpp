@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <tests/models/patch_tree/tree_fronts.h>
 #include <tests/models/patch_tree/tree_of.h>
+#include <tests/render/mirrored_patches.h>
 #include <tests/render/pixel_counts.h>
 #include <tests/render/scenes.h>
 #include <varifold/mesh/generators.h>
@@ -38,20 +39,6 @@ test::SplitNodes one_sided_front(const PatchTree& tree, const Vec3& side) {
   for (std::uint32_t node = 0; node < front.tables().inner_count(); ++node)
     is_split[node] = front.nodes().is_split(node) ? 1 : 0;
   return is_split;
-}
-
-// What the shader draws, on the processor: every corner a vertex of its own.
-TriangleMesh mirrored(const PatchDrawList& list, const std::optional<PatchMorphRange>& morph) {
-  TriangleMesh mesh;
-  for (const PatchDrawCommand& draw : list.draws)
-    for (std::size_t i = draw.first_index; i < draw.first_index + draw.index_count; ++i) {
-      const std::uint32_t own = draw.first_vertex + list.indices[i];
-      const std::uint32_t v = switched_vertex(own, list.remap[own], draw.parent_vertex, draw.mask);
-      mesh.indices.push_back(mesh.vertex_count());
-      mesh.positions.push_back(morph ? morphed_position(list, v, *morph) : list.positions[v]);
-      if (!list.normals.empty() && !morph) mesh.normals.push_back(list.normals[v]);
-    }
-  return mesh;
 }
 
 class PatchesTest : public test::RenderTest {
@@ -120,7 +107,7 @@ TEST_F(PatchesTest, HaveAColorEach) {
   PatchDraws draws(tables_of(tree));
   draws.show(one_sided_front(*tree, Vec3(1, 0, 0)));
   const PatchDrawList list = draws.list();
-  const TriangleMesh mesh = mirrored(list, std::nullopt);
+  const TriangleMesh mesh = test::mirrored_patches(list, std::nullopt);
   const MeshDrawList drawn(mesh);
   const auto name = renderer().add(drawn.list());
   ASSERT_TRUE(name);
@@ -235,7 +222,7 @@ TEST_F(PatchesTest, BlendedLookAsOnTheProcessorAndHaveNoHoles) {
     morphing.morph = pixel_morph_range(criteria.view->scale, options.limits.tolerance);
     const Image8 image = picture(draws.list(), style, morphing);
     EXPECT_EQ(test::enclosed_background_pixels(*renderer().read_depth()), 0);
-    const Image8 expected = picture_of(mirrored(draws.list(), morphing.morph), style);
+    const Image8 expected = picture_of(test::mirrored_patches(draws.list(), morphing.morph), style);
     EXPECT_LE(difference(image, expected), 2e-4);
     // A triangle may be turned over on its way; a crack would show here alone.
     EXPECT_LE(test::red_pixels(image), test::red_pixels(expected) + 1);

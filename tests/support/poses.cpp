@@ -39,6 +39,40 @@ TriangleMesh with_poses(TriangleMesh mesh, std::uint32_t count, std::uint64_t se
   return mesh;
 }
 
+Pose turned_pose(const TriangleMesh& mesh, std::uint64_t seed, float angle) {
+  Random random(seed);
+  Box box;
+  for (const Vec3& p : mesh.positions) box.add(p);
+  const float turn = 6.2831853f;
+  Vec3 phase, axis;
+  for (int k = 0; k < 3; ++k) {
+    phase[k] = turn * static_cast<float>(random.uniform());
+    axis[k] = static_cast<float>(2 * random.uniform() - 1);
+  }
+  axis = normalize_or_zero(axis);
+  Pose pose;
+  pose.name = "turned " + std::to_string(seed);
+  for (const Vec3& p : mesh.positions) {
+    Vec3 q = p - box.center();
+    for (int k = 0; k < 3; ++k) {
+      const float size = std::max(box.upper[k] - box.lower[k], 1e-6f);
+      // Below 1, so that the order along the axis stays.
+      q[k] += 0.9f * size / turn * std::sin(turn * q[k] / size + phase[k]);
+    }
+    const Vec3 along = glm::dot(axis, q) * axis;
+    q = along + std::cos(angle) * (q - along) + std::sin(angle) * glm::cross(axis, q);
+    pose.positions.push_back(box.center() + q);
+  }
+  return pose;
+}
+
+TriangleMesh with_turned_poses(TriangleMesh mesh, std::uint32_t count, std::uint64_t seed,
+                               float angle) {
+  for (std::uint32_t i = 0; i < count; ++i)
+    mesh.poses.push_back(turned_pose(mesh, 1000 * seed + i, angle));
+  return mesh;
+}
+
 std::vector<float> blend_weights(std::size_t count, std::uint64_t seed) {
   Random random(seed);
   std::vector<float> weights(count, 0);

@@ -15,6 +15,14 @@ namespace varifold::test {
 [[nodiscard]] TriangleMesh with_poses(TriangleMesh mesh, std::uint32_t count, std::uint64_t seed,
                                       float strength = 0.2f);
 
+/// Another shape that is turned by `angle` radians about a seeded axis, and whose surface has slid
+/// along itself before: each axis is stretched here and pressed together there, so that flat faces
+/// along the axes stay flat. No shape shows what is off in blends of the two.
+[[nodiscard]] Pose turned_pose(const TriangleMesh& mesh, std::uint64_t seed, float angle);
+/// The mesh with `count` of them beside it, each turned by `angle` about another axis.
+[[nodiscard]] TriangleMesh with_turned_poses(TriangleMesh mesh, std::uint32_t count,
+                                             std::uint64_t seed, float angle);
+
 /// Weights >= 0 for `count` shapes that sum up to 1: one alone, two, or all, by the seed.
 [[nodiscard]] std::vector<float> blend_weights(std::size_t count, std::uint64_t seed);
 

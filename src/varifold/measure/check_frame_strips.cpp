@@ -17,13 +17,9 @@ class OneFrame : public LevelQueries<OneFrame> {
       : model_(std::move(model)), frame_(frame) {
     const FrameStripsData& data = model_->data();
     const FrameSequence& sequence = model_->sequence_of(frame);
-    attributes_ = gather_vertices(data.mesh, sequence.vertex);
+    attributes_ = blended_mesh(gather_vertices(data.mesh, sequence.vertex), weights());
     attributes_.ranges = data.mesh.ranges;
     attributes_.materials = data.mesh.materials;
-    PosedVertices posed = blend_poses(attributes_, data.frames[frame].weights);
-    attributes_.positions = std::move(posed.positions);
-    attributes_.poses.clear();
-    attributes_.rig.reset();
     number_.resize(sequence.vertex.size());
     for (std::uint32_t i = 0; i < number_.size(); ++i) number_[sequence.vertex[i]] = i;
   }
@@ -33,6 +29,10 @@ class OneFrame : public LevelQueries<OneFrame> {
   [[nodiscard]] std::size_t bytes() const { return model_->bytes(); }
   [[nodiscard]] const std::shared_ptr<const FrameStrips>& frames() const { return model_; }
   [[nodiscard]] std::uint32_t frame() const { return frame_; }
+  /// Of the poses.
+  [[nodiscard]] const std::vector<float>& weights() const {
+    return model_->data().frames[frame_].weights;
+  }
   [[nodiscard]] std::uint32_t number(std::uint32_t vertex) const { return number_[vertex]; }
 
  private:
@@ -66,11 +66,7 @@ class OneFrameInstance {
     return list;
   }
   [[nodiscard]] TriangleMesh extract() const {
-    TriangleMesh mesh = instance_.extract();
-    const auto first = model_->attributes().positions.begin();
-    mesh.positions.assign(first, first + mesh.vertex_count());
-    mesh.poses.clear();
-    return mesh;
+    return blended_mesh(instance_.extract(), model_->weights());
   }
   [[nodiscard]] std::size_t bytes() const { return instance_.bytes(); }
 

@@ -75,6 +75,9 @@ using CheckedModel = std::remove_cvref_t<decltype(std::declval<const Instance&>(
 /// - front_zero_area: triangles on a line, the full mesh having none and the levels looked at
 /// neither
 /// - missing_dependency: steps that may collapse before what made the triangles around them
+/// Every fifth front of a mesh with poses is looked at in each pose, and where the model has errors
+/// of steps (view-dependent meshes), the greatest of those that are collapsed is compared with
+/// distances in poses and blends; faults have pose_front_ before their names.
 /// Note: coincident_point, points of the model at one position (as by rounding).
 ///
 /// The model must be consistent, as from a build or a decoder: its walks end and its indices are

@@ -245,8 +245,7 @@ bool is_of_orientation(const Fault& fault) {
 
 std::shared_ptr<const PatchTree> blended(const PatchTree& tree, const std::vector<float>& weights) {
   PatchTreeData data = tree.data();
-  data.vertices.positions = blend_poses(data.vertices, weights).positions;
-  data.vertices.poses.clear();
+  data.vertices = blended_mesh(data.vertices, weights);
   return std::make_shared<const PatchTree>(std::move(data));
 }
 

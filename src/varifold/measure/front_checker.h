@@ -5,6 +5,7 @@
 #include <varifold/measure/front_parts.h>
 #include <varifold/measure/full_level.h>
 #include <varifold/measure/seeded_front.h>
+#include <varifold/measure/shape_checker.h>
 #include <varifold/mesh/weld.h>
 #include <varifold/models/common/front_model.h>
 #include <varifold/models/common/uniform_model.h>
@@ -22,6 +23,26 @@ concept HasDependencies = requires(const Model& model) {
   { steps_lacking_dependencies(model) } -> std::same_as<std::vector<std::uint32_t>>;
 };
 
+/// Models that say of every step how far it is off at most.
+template <class Instance>
+concept HasStepErrors = requires(const Instance& instance) {
+  { instance.is_split(0u) } -> std::same_as<bool>;
+  { instance.model().bounds(0u).mu_length() } -> std::same_as<float>;
+  { instance.model().bounds(0u).delta_length() } -> std::same_as<float>;
+};
+
+/// The greatest of all steps that are collapsed. O(steps).
+template <HasStepErrors Instance>
+double front_error(const Instance& instance) {
+  float error = 0;
+  for (std::uint32_t step = 0; step < instance.model().step_count(); ++step) {
+    if (instance.is_split(step)) continue;
+    const auto bounds = instance.model().bounds(step);
+    error = std::max({error, bounds.mu_length(), bounds.delta_length()});
+  }
+  return error;
+}
+
 template <FrontInstance Instance>
 class FrontChecker {
  public:
@@ -29,11 +50,13 @@ class FrontChecker {
 
   /// All must outlive this. The full level must exist.
   FrontChecker(std::shared_ptr<const Model> model, const ModelCheckOptions& options,
-               const check::ModelPoints& points, const check::FullLevel& full)
+               const check::ModelPoints& points, const check::FullLevel& full,
+               const check::ShapeChecker& shapes)
       : model_(std::move(model)),
         options_(options),
         points_(points),
         full_(full),
+        shapes_(shapes),
         walker_(model_) {}
 
   /// False where go_on(fronts done) is.
@@ -52,6 +75,7 @@ class FrontChecker {
 
   void append_faults(std::vector<Fault>& faults) {
     faults_.append_to(faults);
+    pose_faults_.append_to(faults);
     if constexpr (HasDependencies<Model>) {
       const std::vector<std::uint32_t> steps = steps_lacking_dependencies(*model_);
       check::PlaceFaults lacking("step");
@@ -106,6 +130,17 @@ class FrontChecker {
            "over_budget");
     expect(check::has_all_asked_for(front, full_drawn_, full_placed_, triangles), "too_coarse");
     check_shape(mesh, check::draws_attributes(model_->attributes(), fresh.draw_list()), number);
+    check_in_shapes(fresh, number);
+  }
+
+  // Of each sort of fronts one or two: there may be many poses.
+  void check_in_shapes(const Instance& instance, std::uint32_t number) {
+    if (shapes_.empty() || number < 3 || number % kFrontsPerShapes != 0) return;
+    const TriangleMesh mesh = instance.extract();
+    shapes_.check_surface(mesh, weld_points(mesh), pose_faults_, number);
+    if constexpr (HasStepErrors<Instance>)
+      shapes_.check_distance(mesh, front_error(instance) + model_->error(model_->finest_level()),
+                             pose_faults_, number);
   }
 
   void check_shape(const TriangleMesh& mesh, bool has_numbers_of_model, std::uint32_t number) {
@@ -118,14 +153,19 @@ class FrontChecker {
     if (zero_area > 0) faults_.add("zero_area", number, std::to_string(zero_area) + " triangles");
   }
 
+  // No multiple of the number of sorts.
+  static constexpr std::uint32_t kFrontsPerShapes = 5;
+
   std::shared_ptr<const Model> model_;
   const ModelCheckOptions& options_;
   const check::ModelPoints& points_;
   const check::FullLevel& full_;
+  const check::ShapeChecker& shapes_;
   Instance walker_;
   TriangleMesh full_drawn_;
   std::vector<check::PlacedTriangle> full_placed_, full_triangles_, base_triangles_;
   check::PlaceFaults faults_{"front", "front_"};
+  check::PlaceFaults pose_faults_{"front", "pose_front_"};
   std::uint32_t fronts_checked_ = 0;
 };
 

@@ -45,18 +45,9 @@ std::vector<std::vector<float>> checked_weights(std::size_t poses) {
   return all;
 }
 
-TriangleMesh mesh_in_blend(const TriangleMesh& mesh, const std::vector<float>& weights) {
-  TriangleMesh result;
-  result.positions = blend_poses(mesh, weights).positions;
-  result.indices = mesh.indices;
-  result.ranges = mesh.ranges;
-  result.materials = mesh.materials;
-  return result;
-}
-
 ShapeChecker::ShapeChecker(const TriangleMesh& full, const ModelPoints& points, int threads)
     : weights_(checked_weights(full.poses.size())), threads_(threads) {
-  for (const auto& weights : weights_) blended_.push_back(mesh_in_blend(full, weights));
+  for (const auto& weights : weights_) blended_.push_back(blended_mesh(full, weights));
   for (std::size_t i = 0; i < full.poses.size(); ++i)
     poses_.emplace_back(blended_[i], std::vector<CanonicalTriangle>{}, points, 0.0, threads);
 }
@@ -64,13 +55,13 @@ ShapeChecker::ShapeChecker(const TriangleMesh& full, const ModelPoints& points, 
 void ShapeChecker::check_surface(const TriangleMesh& mesh, const WeldMap& weld, PlaceFaults& faults,
                                  std::uint32_t place) const {
   for (std::size_t i = 0; i < poses_.size(); ++i)
-    poses_[i].check_surface(mesh_in_blend(mesh, weights_[i]), weld, faults, place);
+    poses_[i].check_surface(blended_mesh(mesh, weights_[i]), weld, faults, place);
 }
 
 void ShapeChecker::check_distance(const TriangleMesh& mesh, double error, PlaceFaults& faults,
                                   std::uint32_t place) const {
   for (std::size_t i = 0; i < weights_.size(); ++i)
-    if (is_exceeded(mesh_in_blend(mesh, weights_[i]), blended_[i], error, threads_))
+    if (is_exceeded(blended_mesh(mesh, weights_[i]), blended_[i], error, threads_))
       faults.add("error_exceeded", place);
 }
 

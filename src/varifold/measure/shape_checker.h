@@ -12,16 +12,14 @@ namespace varifold::check {
 /// Weights of poses: each alone, then seeded blends of all, >= 0 with a sum of at most 1.
 [[nodiscard]] std::vector<std::vector<float>> checked_weights(std::size_t poses);
 
-/// The mesh in a blend of its poses, without poses, normals and skin.
-[[nodiscard]] TriangleMesh mesh_in_blend(const TriangleMesh& mesh,
-                                         const std::vector<float>& weights);
-
 /// Compares levels with the full one in every pose, and their errors also in blends.
 class ShapeChecker {
  public:
   ShapeChecker() = default;
   /// `full` is the full level; without poses nothing is ever found.
   ShapeChecker(const TriangleMesh& full, const ModelPoints& points, int threads);
+
+  [[nodiscard]] bool empty() const { return weights_.empty(); }
 
   /// Orientation and topology in each pose: as FullLevel::check_surface().
   void check_surface(const TriangleMesh& mesh, const WeldMap& weld, PlaceFaults& faults,

@@ -7,6 +7,7 @@
 #include <array>
 #include <cassert>
 #include <glm/mat3x3.hpp>
+#include <utility>
 
 namespace varifold {
 namespace {
@@ -78,6 +79,57 @@ PosedVertices skin_vertices(const TriangleMesh& mesh, std::span<const glm::mat4>
   PosedVertices result{mesh.positions, mesh.normals};
   skin_vertices(mesh.skin, joint_matrices, result);
   return result;
+}
+
+JointWeights mix_joints(const JointWeights& from, const JointWeights& to, float part) {
+  struct Weighted {
+    std::uint16_t joint;
+    float weight;
+  };
+  std::array<Weighted, 8> all{};
+  std::size_t count = 0;
+  const auto add = [&](const JointWeights& followed, float factor) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      const float weight = factor * followed.weights[i];
+      if (!(weight > 0)) continue;
+      const auto same = std::find_if(all.begin(), all.begin() + count, [&](const Weighted& known) {
+        return known.joint == followed.joints[i];
+      });
+      if (same == all.begin() + count) all[count++] = {followed.joints[i], 0};
+      same->weight += weight;
+    }
+  };
+  add(from, 1 - part);
+  add(to, part);
+  const auto is_less = [](const Weighted& a, const Weighted& b) {
+    return a.weight != b.weight ? a.weight < b.weight : a.joint > b.joint;
+  };
+  JointWeights mixed;
+  float sum = 0;
+  for (std::size_t i = 0; i < std::min<std::size_t>(count, 4); ++i) {
+    std::swap(all[i], *std::max_element(all.begin() + i, all.begin() + count, is_less));
+    mixed.joints[i] = all[i].joint;
+    sum += mixed.weights[i] = all[i].weight;
+  }
+  for (float& weight : mixed.weights) weight = sum > 0 ? weight / sum : 0;
+  return mixed;
+}
+
+TriangleMesh moved_mesh(const TriangleMesh& mesh, PosedVertices vertices) {
+  TriangleMesh result;
+  result.positions = std::move(vertices.positions);
+  result.normals = std::move(vertices.normals);
+  result.texcoords = mesh.texcoords;
+  result.colors = mesh.colors;
+  result.indices = mesh.indices;
+  result.ranges = mesh.ranges;
+  result.materials = mesh.materials;
+  result.images = mesh.images;
+  return result;
+}
+
+TriangleMesh blended_mesh(const TriangleMesh& mesh, std::span<const float> weights) {
+  return moved_mesh(mesh, blend_poses(mesh, weights));
 }
 
 }  // namespace varifold

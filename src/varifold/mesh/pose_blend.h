@@ -32,4 +32,14 @@ void skin_vertices(std::span<const JointWeights> skin, std::span<const glm::mat4
 [[nodiscard]] PosedVertices skin_vertices(const TriangleMesh& mesh,
                                           std::span<const glm::mat4> joint_matrices);
 
+/// Joints on the way from `from` (part 0) to `to` (part 1): the mean of the weights, of more than
+/// four joints the four greatest, which then sum up to 1. The ends are as they are but for the
+/// order of joints. O(1).
+[[nodiscard]] JointWeights mix_joints(const JointWeights& from, const JointWeights& to, float part);
+
+/// The mesh with its vertices there, a mesh of its own: without poses, skin and rig. O(mesh).
+[[nodiscard]] TriangleMesh moved_mesh(const TriangleMesh& mesh, PosedVertices vertices);
+/// The mesh in the blend of its poses, in the same way.
+[[nodiscard]] TriangleMesh blended_mesh(const TriangleMesh& mesh, std::span<const float> weights);
+
 }  // namespace varifold

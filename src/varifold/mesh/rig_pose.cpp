@@ -186,16 +186,7 @@ void posed_vertices(const TriangleMesh& mesh, const RigPose& pose, PosedVertices
 TriangleMesh posed_mesh(const TriangleMesh& mesh, std::uint32_t animation, float time) {
   PosedVertices vertices;
   posed_vertices(mesh, pose_rig(mesh, animation, time), vertices);
-  TriangleMesh result;
-  result.positions = std::move(vertices.positions);
-  result.normals = std::move(vertices.normals);
-  result.texcoords = mesh.texcoords;
-  result.colors = mesh.colors;
-  result.indices = mesh.indices;
-  result.ranges = mesh.ranges;
-  result.materials = mesh.materials;
-  result.images = mesh.images;
-  return result;
+  return moved_mesh(mesh, std::move(vertices));
 }
 
 std::vector<Pose> sample_poses(const TriangleMesh& mesh, const PoseSampling& sampling) {

@@ -264,6 +264,30 @@ ShapeAlignment align_shapes(const SphereMap& a, const SphereMap& b) {
   return {matrix(least(cost).rotation), transposed(turn)};
 }
 
+Rotation best_axis_turn(std::span<const Vec3> places, std::span<const Vec3> others) {
+  const auto middle = [](std::span<const Vec3> points) {
+    DVec3 sum(0);
+    for (const Vec3& p : points) sum += DVec3(p);
+    return sum / static_cast<double>(std::max<std::size_t>(points.size(), 1));
+  };
+  const DVec3 middle_a = middle(places), middle_b = middle(others);
+  // Closest where the sum of products is greatest; the products of all axes give that of any turn.
+  std::array<DVec3, 3> products{DVec3(0), DVec3(0), DVec3(0)};
+  for (std::size_t i = 0; i < places.size(); ++i)
+    for (int row = 0; row < 3; ++row)
+      products[row] +=
+          (static_cast<double>(places[i][row]) - middle_a[row]) * (DVec3(others[i]) - middle_b);
+  const auto closeness = [&](const Rotation& turn) {
+    return glm::dot(turn[0], products[0]) + glm::dot(turn[1], products[1]) +
+           glm::dot(turn[2], products[2]);
+  };
+  Rotation best = kNoRotation;
+  double greatest = closeness(best) + 0.05 * std::abs(closeness(best));
+  for (const Rotation& turn : axis_rotations())
+    if (closeness(turn) > greatest) greatest = closeness(turn), best = turn;
+  return best;
+}
+
 std::vector<SpherePoint> rotated_points(std::span<const SpherePoint> points,
                                         const Rotation& rotation) {
   std::vector<SpherePoint> result;

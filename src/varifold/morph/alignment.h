@@ -48,6 +48,10 @@ struct SphereMap {
 /// result always.
 [[nodiscard]] ShapeAlignment align_shapes(const SphereMap& a, const SphereMap& b);
 
+/// The rotation by multiples of 90 degrees that brings the second places closest to the first ones
+/// they meet, both about their middles; none unless another one is clearly better.
+[[nodiscard]] Rotation best_axis_turn(std::span<const Vec3> places, std::span<const Vec3> others);
+
 /// All directions turned; rounded, so triangles of less than 1e-11 in height may turn over.
 [[nodiscard]] std::vector<SpherePoint> rotated_points(std::span<const SpherePoint> points,
                                                       const Rotation& rotation);

@@ -25,32 +25,44 @@ struct Candidate {
 
 class RingDecimation {
  public:
-  RingDecimation(RingMesh& mesh, std::span<const Vec3> positions, const std::vector<bool>& is_fixed)
+  RingDecimation(RingMesh& mesh, std::span<const Vec3> positions, const DecimationOptions& options)
       : mesh_(mesh),
+        options_(options),
         positions_(positions),
-        is_fixed_(is_fixed),
         quadrics_(positions.size()),
         stamps_(positions.size(), 0) {}
 
-  CollapseRecord run(std::uint32_t least) {
+  CollapseRecord run() {
+    const std::uint32_t least = std::max(options_.least, 4u);
     const auto count = static_cast<std::uint32_t>(positions_.size());
-    for (std::uint32_t v = 0; v < count; ++v) quadrics_[v] = quadric_of(v);
-    for (std::uint32_t v = 0; v < count; ++v) push_best(v);
+    for (std::uint32_t v = 0; v < count; ++v)
+      if (mesh_.is_live(v)) quadrics_[v] = quadric_of(v);
     CollapseRecord record;
-    while (mesh_.vertex_count() > least && !queue_.empty()) {
-      const Candidate best = queue_.top();
-      queue_.pop();
-      if (best.stamp != stamps_[best.vertex]) continue;
-      // A collapse gives its target new neighbours, which may be those of a candidate, too.
-      if (mesh_.can_collapse(best.vertex, best.target))
-        step(best, record);
-      else
-        push_best(best.vertex);
+    const bool has_holds = !options_.holds.empty();
+    go_on(has_holds ? std::max(least, options_.late) : least, record);
+    if (has_holds) {
+      most_ = Hold::kLate;
+      go_on(least, record);
     }
     return record;
   }
 
  private:
+  void go_on(std::uint32_t least, CollapseRecord& record) {
+    for (std::uint32_t v = 0; v < positions_.size(); ++v)
+      if (mesh_.is_live(v)) push_best(v);
+    while (mesh_.vertex_count() > least && !queue_.empty()) {
+      const Candidate best = queue_.top();
+      queue_.pop();
+      if (best.stamp != stamps_[best.vertex]) continue;
+      // A collapse gives its target new neighbours, which may be those of a candidate, too.
+      if (is_allowed(best.vertex, best.target))
+        step(best, record);
+      else
+        push_best(best.vertex);
+    }
+  }
+
   Quadric quadric_of(std::uint32_t vertex) const {
     Quadric quadric;
     const auto ring = mesh_.ring(vertex);
@@ -64,23 +76,23 @@ class RingDecimation {
     return quadric;
   }
 
-  [[nodiscard]] bool is_fixed(std::uint32_t vertex) const {
-    return !is_fixed_.empty() && is_fixed_[vertex];
+  [[nodiscard]] bool is_barred(std::uint32_t target) const {
+    return options_.bars_targets && options_.holds[target] == Hold::kAlways;
   }
 
   void push_best(std::uint32_t vertex) {
-    if (is_fixed(vertex)) return;
     ++stamps_[vertex];
+    if (!options_.holds.empty() && options_.holds[vertex] > most_) return;
     Candidate best{0, vertex, kNone, stamps_[vertex]};
     for (const std::uint32_t target : mesh_.ring(vertex)) {
-      if (is_fixed(target)) continue;
+      if (is_barred(target)) continue;
       const Vec3 way = positions_[target] - positions_[vertex];
       const auto valence =
           static_cast<float>(mesh_.ring(vertex).size() + mesh_.ring(target).size()) - 4;
       const float excess = valence > kFreeValence ? valence - kFreeValence : 0.0f;
       const float cost = (quadrics_[vertex].at(way) + 1e-30f) * (1 + excess * excess);
       if (best.target != kNone && !(cost < best.cost)) continue;
-      if (!mesh_.can_collapse(vertex, target)) continue;
+      if (!is_allowed(vertex, target)) continue;
       best.cost = cost, best.target = target;
     }
     if (best.target != kNone) queue_.push(best);
@@ -94,9 +106,26 @@ class RingDecimation {
     for (const std::uint32_t v : record.ring(record.steps.back())) push_best(v);
   }
 
+  [[nodiscard]] bool is_allowed(std::uint32_t vertex, std::uint32_t target) const {
+    return mesh_.can_collapse(vertex, target) && (options_.points.empty() || sees(vertex, target));
+  }
+
+  // Whether the triangles that `target` gets are positive.
+  [[nodiscard]] bool sees(std::uint32_t vertex, std::uint32_t target) const {
+    const auto ring = mesh_.ring(vertex);
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const std::uint32_t p = ring[i], q = ring[i + 1 == ring.size() ? 0 : i + 1];
+      if (p == target || q == target) continue;
+      if (orientation(options_.points[target], options_.points[p], options_.points[q]) <= 0)
+        return false;
+    }
+    return true;
+  }
+
   RingMesh& mesh_;
+  const DecimationOptions& options_;
+  Hold most_ = Hold::kFree;  // that may go now
   std::span<const Vec3> positions_;
-  const std::vector<bool>& is_fixed_;
   std::vector<Quadric> quadrics_;
   std::vector<std::uint32_t> stamps_;
   std::priority_queue<Candidate> queue_;
@@ -104,15 +133,9 @@ class RingDecimation {
 
 }  // namespace
 
-CollapseRecord decimate_to_tetrahedron(RingMesh& mesh, std::span<const Vec3> positions) {
-  const std::vector<bool> none;
-  return RingDecimation(mesh, positions, none).run(4);
-}
-
-CollapseRecord decimate_to_cone(RingMesh& mesh, std::span<const Vec3> positions,
-                                const std::vector<bool>& is_fixed) {
-  const auto fixed = std::count(is_fixed.begin(), is_fixed.end(), true);
-  return RingDecimation(mesh, positions, is_fixed).run(static_cast<std::uint32_t>(fixed) + 1);
+CollapseRecord decimate(RingMesh& mesh, std::span<const Vec3> positions,
+                        const DecimationOptions& options) {
+  return RingDecimation(mesh, positions, options).run();
 }
 
 }  // namespace varifold

@@ -12,6 +12,11 @@ using glm::dvec2;
 
 // Half the side of the square of the tangent plane that a kernel is looked for in.
 constexpr double kKernelReach = 8;
+// Twice the area of a triangle on the sphere over its squared edges, at least, with a lift.
+constexpr double kNeedle = 1e-6;
+// The part of the floor that counts on the surface of the lift.
+constexpr double kLiftedFloor = 1e-4;
+constexpr double kMostBits = 20;
 
 // Cuts a convex polygon with the half-plane c + g . x > 0.
 void clip(const std::vector<dvec2>& polygon, double c, const dvec2& g, std::vector<dvec2>& result) {
@@ -48,6 +53,7 @@ void StarRelaxation::gather(std::uint32_t vertex) {
     const DVec3 v = DVec3(positions_[ring[(i + 1) % ring.size()]]) - origin;
     Corner& corner = corners_[i];
     corner.place = direction(points_[ring[i]]);
+    corner.lifted = lift_ ? lifted_[ring[i]] : corner.place;
     corner.uu = glm::dot(u, u) + floor_;
     corner.uv = glm::dot(u, v) + 0.5 * floor_;
     corner.vv = glm::dot(v, v) + floor_;
@@ -55,69 +61,179 @@ void StarRelaxation::gather(std::uint32_t vertex) {
   }
 }
 
-// Sum over the star, by the area on the surface, of (r + 1/r) (g + 1/g): r is the ratio of the
-// singular values of the map between the flat triangles, g their product in proportion to the
-// areas of the whole. Infinite where a triangle is not positive.
-double StarRelaxation::distortion_at(const DVec3& point) const {
+// Sum over the star of (r + 1/r) (g + 1/g): r is the ratio of the singular values of the map
+// between the flat triangles, g their product in proportion to the areas of the whole. Weighted by
+// the area on the surface, with a lift by the mean of both areas. Infinite where a triangle is not
+// positive.
+double StarRelaxation::distortion_at(const DVec3& point, const DVec3& lifted, double most) const {
   double sum = 0;
+  const double floor = lift_ ? kLiftedFloor * floor_ / scale_ : 0.0;
   for (std::size_t i = 0; i < corners_.size(); ++i) {
     const Corner& corner = corners_[i];
-    const DVec3 u = corner.place - point;
-    const DVec3 v = corners_[i + 1 == corners_.size() ? 0 : i + 1].place - point;
-    const DVec3 normal = glm::cross(u, v);
-    if (!(glm::dot(normal, point) > 0)) return std::numeric_limits<double>::infinity();
-    const double trace =
-        glm::dot(v, v) * corner.uu - 2 * glm::dot(u, v) * corner.uv + glm::dot(u, u) * corner.vv;
-    const double twice_area = std::sqrt(glm::dot(normal, normal));
+    const Corner& next = corners_[i + 1 == corners_.size() ? 0 : i + 1];
+    if (!is_positive(corner.place - point, next.place - point, point))
+      return std::numeric_limits<double>::infinity();
+    const DVec3 u = corner.lifted - lifted, v = next.lifted - lifted;
+    const double uu = glm::dot(u, u) + floor, uv = glm::dot(u, v) + 0.5 * floor,
+                 vv = glm::dot(v, v) + floor;
+    const double trace = vv * corner.uu - 2 * uv * corner.uv + uu * corner.vv;
+    const double twice_area = std::sqrt(std::max(uu * vv - uv * uv, 1e-300));
     const double growth = 2 * corner.area / (twice_area * scale_);
-    sum += trace / twice_area * (growth + 1 / growth);
+    const double weight = lift_ ? 0.5 * (1 + 1 / growth) : 1.0;
+    sum += weight * trace / twice_area * (growth + 1 / growth);
+    if (sum > most) return sum;
   }
   return sum;
+}
+
+// With a lift nothing else keeps triangles from becoming needles on the sphere, among which no more
+// vertices would find a place.
+bool StarRelaxation::is_positive(const DVec3& u, const DVec3& v, const DVec3& point) const {
+  const DVec3 normal = glm::cross(u, v);
+  if (!lift_) return glm::dot(normal, point) > 0;
+  const double edges = glm::dot(u, u) + glm::dot(v, v) + glm::dot(u - v, u - v);
+  return glm::dot(normal, point) > kNeedle * edges;
+}
+
+void StarRelaxation::set_lift(const SurfaceLift* lift) {
+  lift_ = lift;
+  lifted_.clear();
+  hints_.clear();
+  if (!lift) return;
+  lifted_.resize(points_.size());
+  hints_.assign(points_.size(), 0);
+  std::uint32_t hint = 0;
+  for (std::uint32_t v = 0; v < points_.size(); ++v) {
+    if (!mesh_.is_live(v)) continue;
+    // From a neighbour it is not far to walk.
+    for (const std::uint32_t neighbour : mesh_.ring(v))
+      if (neighbour < v) hint = hints_[neighbour];
+    lifted_[v] = lift_->at(glm::normalize(direction(points_[v])), hint);
+    hints_[v] = hint;
+  }
+}
+
+StarRelaxation::Trial StarRelaxation::trial_at(const DVec3& point, std::uint32_t hint,
+                                               double most) const {
+  Trial trial{point, point, hint, 0};
+  if (lift_) trial.lifted = lift_->at(point, trial.hint);
+  trial.distortion = distortion_at(point, trial.lifted, most);
+  return trial;
 }
 
 bool StarRelaxation::accept(std::uint32_t vertex, const DVec3& point) {
   const SpherePoint rounded = to_sphere_point(point);
   if (!is_star_positive(points_, mesh_.ring(vertex), rounded)) return false;
-  points_[vertex] = rounded;
+  move_to(vertex, rounded);
   return true;
 }
 
-double StarRelaxation::relax(std::uint32_t vertex, int rounds) {
-  gather(vertex);
-  const DVec3 start = direction(points_[vertex]);
-  DVec3 best_point = start;
-  double best = distortion_at(start);
+void StarRelaxation::move_to(std::uint32_t vertex, const SpherePoint& point) {
+  points_[vertex] = point;
+  if (lift_) lifted_[vertex] = lift_->at(glm::normalize(direction(point)), hints_[vertex]);
+}
+
+double StarRelaxation::nearest_corner(const DVec3& point) const {
   double nearest = 4;
   for (const Corner& corner : corners_)
-    nearest = std::min(nearest, glm::distance(corner.place, start));
-  double reach = 0.25 * nearest;
+    nearest = std::min(nearest, glm::distance(corner.place, point));
+  return nearest;
+}
+
+// Places all over the star: on its spokes and between them.
+void StarRelaxation::try_star(Trial& best) const {
+  const Trial center = best;
+  for (std::size_t i = 0; i < corners_.size(); ++i) {
+    const DVec3& p = corners_[i].place;
+    const DVec3 middle = 0.5 * (p + corners_[i + 1 == corners_.size() ? 0 : i + 1].place);
+    for (const double part : {0.1, 0.3, 0.6, 0.85})
+      for (const DVec3& to : {p, middle}) {
+        const DVec3 point = glm::normalize(center.point + part * (to - center.point));
+        const Trial trial = trial_at(point, center.hint, best.distortion);
+        if (trial.distortion < best.distortion) best = trial;
+      }
+  }
+}
+
+double StarRelaxation::relax(std::uint32_t vertex, int rounds, Reach reaching) {
+  gather(vertex);
+  const DVec3 start = direction(points_[vertex]);
+  Trial best = trial_at(start, lift_ ? hints_[vertex] : 0);
+  if (reaching == Reach::kStar) try_star(best);
+  double reach = 0.25 * nearest_corner(best.point);
   for (int round = 0; round < rounds; ++round) {
-    const auto [u, v] = tangent_frame(best_point);
-    const DVec3 center = best_point;
-    const double at_center = best;
+    const auto [u, v] = tangent_frame(best.point);
+    const Trial center = best;
+    const auto try_at = [&](const DVec3& point) {
+      const Trial trial = trial_at(point, center.hint);
+      if (trial.distortion < best.distortion) best = trial;
+      return trial.distortion;
+    };
     dvec2 jump(0);
     for (int axis = 0; axis < 2; ++axis) {
       const DVec3 way = reach * (axis == 0 ? u : v);
-      const double ahead = distortion_at(center + way), behind = distortion_at(center - way);
-      if (ahead < best) best = ahead, best_point = center + way;
-      if (behind < best) best = behind, best_point = center - way;
-      const double bend = ahead + behind - 2 * at_center;
+      const double ahead = try_at(center.point + way), behind = try_at(center.point - way);
+      const double bend = ahead + behind - 2 * center.distortion;
       if (bend > 0 && std::isfinite(bend))
         jump[axis] = std::clamp(0.5 * (behind - ahead) / bend, -2.0, 2.0);
     }
-    const DVec3 lowest = center + reach * (jump.x * u + jump.y * v);
-    const double at_lowest = distortion_at(lowest);
-    if (at_lowest < best) best = at_lowest, best_point = lowest;
-    if (best < at_center) best_point = glm::normalize(best_point);
-    reach *= best < at_center ? 0.7 : 0.25;
+    try_at(center.point + reach * (jump.x * u + jump.y * v));
+    const bool is_better = best.distortion < center.distortion;
+    if (is_better) best.point = glm::normalize(best.point);
+    reach *= is_better ? 0.7 : 0.25;
   }
-  if (best_point == start || !accept(vertex, best_point)) return 0;
-  return glm::distance(best_point, start);
+  if (best.point == start || !accept(vertex, best.point)) return 0;
+  return glm::distance(best.point, start);
+}
+
+void StarRelaxation::drag(std::uint32_t vertex, const SpherePoint& goal) {
+  if (points_[vertex] == goal) return;
+  const auto ring = mesh_.ring(vertex);
+  if (is_star_positive(points_, ring, goal)) {
+    move_to(vertex, goal);
+    return;
+  }
+  const DVec3 from = direction(points_[vertex]);
+  DVec3 to = direction(goal);
+  // Straight across the sphere there is no shortest way.
+  if (glm::dot(from, to) < -0.99) to += 0.2 * tangent_frame(from).first;
+  double part = 0.5;
+  for (int halving = 0; halving < 24; ++halving, part *= 0.5) {
+    if (!is_star_positive(points_, ring, to_sphere_point(from + part * (to - from)))) continue;
+    accept(vertex, from + 0.5 * part * (to - from));
+    return;
+  }
+}
+
+double StarRelaxation::mean_distortion() {
+  double sum = 0, weights = 0;
+  for (std::uint32_t v = 0; v < points_.size(); ++v) {
+    if (!mesh_.is_live(v)) continue;
+    gather(v);
+    const auto ring = mesh_.ring(v);
+    const std::vector<Corner> star = corners_;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const std::size_t next = i + 1 == ring.size() ? 0 : i + 1;
+      if (v > ring[i] || v > ring[next]) continue;  // told by another corner
+      const DVec3 u = star[i].lifted - lifted_[v], w = star[next].lifted - lifted_[v];
+      const double twice_area = glm::length(glm::cross(u, w)) + 1e-300;
+      const double trace = glm::dot(w, w) * star[i].uu - 2 * glm::dot(u, w) * star[i].uv +
+                           glm::dot(u, u) * star[i].vv;
+      const double ratios = 0.5 * trace / (twice_area * star[i].area + 1e-300);
+      const double growth = 2 * star[i].area / (twice_area * scale_) + 1e-300;
+      const double weight = star[i].area + 0.5 * twice_area * scale_;
+      const double bits = std::log2(ratios * (growth + 1 / growth) / 4);
+      sum += weight * std::clamp(bits, 0.0, kMostBits);
+      weights += weight;
+    }
+  }
+  return weights > 0 ? sum / weights : 0;
 }
 
 bool StarRelaxation::place(std::uint32_t vertex) {
+  if (lift_) hints_[vertex] = hints_[mesh_.ring(vertex)[0]];
   if (!place_in_kernel(vertex) && !place_near_target(vertex)) return false;
-  relax(vertex, 6);
+  relax(vertex, 6, lift_ ? Reach::kStar : Reach::kNear);
   return true;
 }
 

@@ -3,6 +3,7 @@
 // are exact, and
 //   the overlay is simplified.
 #include <varifold/base/parallel.h>
+#include <varifold/morph/correspondence.h>
 #include <varifold/morph/disc_pair.h>
 #include <varifold/morph/feature_warp.h>
 #include <varifold/morph/overlay_mesh.h>
@@ -46,9 +47,8 @@ class SupermeshBuilder {
 
   Result<Supermesh> run() {
     using Stage = Result<void> (SupermeshBuilder::*)();
-    for (const Stage stage :
-         {&SupermeshBuilder::check, &SupermeshBuilder::embed, &SupermeshBuilder::align,
-          &SupermeshBuilder::overlay, &SupermeshBuilder::reduce})
+    for (const Stage stage : {&SupermeshBuilder::check, &SupermeshBuilder::embed,
+                              &SupermeshBuilder::overlay, &SupermeshBuilder::reduce})
       if (auto done = (this->*stage)(); !done) return tl::unexpected(std::move(done.error()));
     if (!report(options_.progress, "supermesh", 1)) return cancelled();
     return std::move(result_);
@@ -93,17 +93,12 @@ class SupermeshBuilder {
 
   [[nodiscard]] bool of_discs() const { return surfaces_[0].is_disc(); }
 
-  Result<void> lay_discs() {
+  Result<void> embed_discs() {
     for (std::size_t i = 0; i < 2; ++i)
       discs_.maps[i].disc = to_disc_mesh(*meshes_[i], surfaces_[i]);
-    return lay_boundaries(discs_, features_);
-  }
-
-  Result<void> embed() {
-    if (of_discs())
-      if (auto laid = lay_discs(); !laid) return laid;
+    if (auto laid = lay_boundaries(discs_, features_); !laid) return laid;
     Result<std::vector<SpherePoint>> found[2];
-    // The callback belongs to the caller's thread, which maps the first surface.
+    // The callback belongs to the caller's thread, which maps the first disc.
     std::atomic<bool> is_cancelled = false;
     SphereEmbeddingOptions quiet, loud;
     quiet.progress = [&](float) { return !is_cancelled; };
@@ -111,53 +106,25 @@ class SupermeshBuilder {
       if (!report(options_.progress, "embed", 0.5f * done)) is_cancelled = true;
       return !is_cancelled;
     };
-    const auto embed_one = [&](int i, const SphereEmbeddingOptions& embedding) {
-      const DiscMap& map = discs_.maps[static_cast<std::size_t>(i)];
-      found[i] = of_discs()
-                     ? embed_on_half_sphere(map.disc.surface, map.points, embedding)
-                     : embed_on_sphere(surfaces_[i].indices, surfaces_[i].positions, embedding);
+    const auto embed_one = [&](std::size_t i, const SphereEmbeddingOptions& embedding) {
+      found[i] =
+          embed_on_half_sphere(discs_.maps[i].disc.surface, discs_.maps[i].points, embedding);
     };
     parallel_both(
         options_.threads, [&] { embed_one(0, loud); }, [&] { embed_one(1, quiet); });
-    for (int i = 0; i < 2; ++i) {
+    for (std::size_t i = 0; i < 2; ++i) {
       if (!found[i])
         return fail_in(i == 0 ? "first mesh" : "second mesh", std::move(found[i].error()));
-      points_[i] = std::move(*found[i]);
+      discs_.maps[i].points = std::move(*found[i]);
     }
-    result_.report.embed_seconds = watch_.lap();
-    return {};
-  }
-
-  // Turns the map of b. A turn rounds, which may fold the smallest triangles; another, almost
-  // equal one may not.
-  Result<void> turn() {
-    const SphereTriangulation a(surfaces_[0].indices, points_[0]),
-        b(surfaces_[1].indices, points_[1]);
-    const SphereMap map_a{a, surfaces_[0].positions}, map_b{b, surfaces_[1].positions};
-    Rotation rotation;
-    if (features_.empty()) {
-      const ShapeAlignment found = align_shapes(map_a, map_b);
-      rotation = found.sphere;
-      result_.report.moved_b.turn = found.shape;
-    } else {
-      rotation = align_features(map_a, map_b, features_);
-    }
-    for (int attempt = 0; attempt < 20; ++attempt) {
-      points_[1] = rotated_points(b.points, rotation);
-      if (count_flipped_on_sphere(b.indices, points_[1]) == 0) return {};
-      const double angle = 1e-9 * (attempt + 1);
-      for (DVec3& row : rotation) row = DVec3(row.x - angle * row.y, row.y + angle * row.x, row.z);
-    }
-    return fail(ErrorKind::kFailed, "second mesh: triangles are too small to be turned");
+    return join_discs();
   }
 
   // Both are closed below after that.
-  Result<void> align_discs() {
-    for (std::size_t i = 0; i < 2; ++i) discs_.maps[i].points = std::move(points_[i]);
+  Result<void> join_discs() {
     const auto meeting = bring_together(discs_);
     if (!meeting) return tl::unexpected(meeting.error());
-    result_.report.moved_b.turn = meeting->shape;
-    result_.report.feature_distance = meeting->feature_distance;
+    result_.report.feature_distance = *meeting;
     shared_ = merge_boundaries(discs_.maps[0], discs_.maps[1]);
     for (std::size_t i = 0; i < 2; ++i) {
       CappedDisc disc = capped(std::move(discs_.maps[i]));
@@ -167,21 +134,26 @@ class SupermeshBuilder {
       points_[i] = std::move(disc.points);
       is_fixed_[i] = std::move(disc.is_fixed);
     }
-    result_.report.align_seconds = watch_.lap();
+    result_.report.embed_seconds = watch_.lap();
     return {};
   }
-
-  Result<void> align() {
-    if (!report(options_.progress, "align", 0.5f)) return cancelled();
-    if (of_discs()) return align_discs();
-    if (auto turned = turn(); !turned) return turned;
-    if (!features_.empty()) {
-      std::vector<Pin> pins;
-      pins.reserve(features_.size());
-      for (const auto& [in_a, in_b] : features_) pins.push_back({in_b, points_[0][in_a]});
-      result_.report.feature_distance = drag_to_goals(map_of(1), pins).farthest;
-    }
-    result_.report.align_seconds = watch_.lap();
+  Result<void> embed() {
+    if (of_discs()) return embed_discs();
+    CorrespondenceOptions correspondence;
+    correspondence.features = features_;
+    correspondence.threads = options_.threads;
+    correspondence.progress = [&](float done) {
+      return report(options_.progress, "embed", 0.6f * done);
+    };
+    const std::array<SurfaceView, 2> views{
+        SurfaceView{surfaces_[0].indices, surfaces_[0].positions},
+        SurfaceView{surfaces_[1].indices, surfaces_[1].positions}};
+    auto found = find_correspondence(views, correspondence);
+    if (!found) return tl::unexpected(std::move(found.error()));
+    for (int i = 0; i < 2; ++i) points_[i] = std::move(found->points[i]);
+    result_.report.feature_distance = found->feature_distance;
+    result_.report.distortion = found->distortion;
+    result_.report.embed_seconds = watch_.lap();
     return {};
   }
 
@@ -223,17 +195,15 @@ class SupermeshBuilder {
     result_.report.merged_points = reduced.merged_points;
     result_.report.removed_points = reduced.removed_points;
     result_.mesh = std::move(overlay_.mesh);
-    if (options_.fit)
-      fit();
-    else
-      result_.report.moved_b = {};
+    if (options_.fit) fit();
     result_.report.reduce_seconds = watch_.lap();
     return {};
   }
 
-  // The turn is known; boxes give the rest.
+  // The turn by right angles that brings places that meet closest; boxes give the rest.
   void fit() {
     Similarity& similarity = result_.report.moved_b;
+    similarity.turn = best_axis_turn(result_.mesh.positions, result_.mesh.poses[0].positions);
     Box box_a, box_b;
     for (const Vec3& p : surfaces_[0].positions) box_a.add(p);
     for (const Vec3& p : surfaces_[1].positions) box_b.add(similarity(p));

@@ -46,10 +46,10 @@ struct SupermeshReport {
   std::uint32_t removed_points = 0;     ///< of it, by the tolerance
   /// Triangles of a and b that are not strictly positive on the sphere; always 0.
   std::uint32_t flipped_on_sphere = 0;
+  double distortion = 0;        ///< between the shapes, in bits; see PairGrowth
   double feature_distance = 0;  ///< the farthest pair of features on the sphere, in radians
   Similarity moved_b;           ///< what `fit` did to the shape of b
   double embed_seconds = 0;     ///< both surfaces onto the sphere
-  double align_seconds = 0;     ///< rotation and features
   double overlay_seconds = 0;
   double reduce_seconds = 0;
 };

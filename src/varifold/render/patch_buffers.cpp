@@ -42,7 +42,7 @@ Result<void> check_draw(const PatchDrawList& list, std::size_t i) {
 Result<std::size_t> PatchBuffers::create(const PatchDrawList& list) {
   const std::span<const std::byte> sources[] = {
       std::as_bytes(list.positions), std::as_bytes(list.normals), std::as_bytes(list.colors),
-      std::as_bytes(list.remap), std::as_bytes(list.morphs)};
+      std::as_bytes(list.remap),     std::as_bytes(list.morphs),  std::as_bytes(list.skin)};
   static_assert(std::size(sources) == kMaterials);
   std::size_t uploaded = list.indices.size_bytes();
   for (std::size_t i = 0; i < std::size(sources); ++i) {
@@ -51,6 +51,13 @@ Result<std::size_t> PatchBuffers::create(const PatchDrawList& list) {
     storages_[i] = make_static_buffer(sources[i]);
     uploaded += sources[i].size();
   }
+  DrawList vertices;
+  vertices.positions = list.positions;
+  vertices.normals = list.normals;
+  vertices.poses = list.poses;
+  auto posed = poses_.update(vertices);
+  if (!posed) return posed;
+  uploaded += *posed;
   vertex_count_ = list.positions.size();
   index_count_ = list.indices.size();
   indices_ = make_static_buffer(std::as_bytes(list.indices));
@@ -123,7 +130,10 @@ Result<void> check_list(const PatchDrawList& list) {
   const auto fits = [&](std::size_t count) { return count == 0 || count == vertices; };
   if (vertices >= kNone / 3) return fail(ErrorKind::kUnsupported, "patches: too many vertices");
   if (list.remap.size() != vertices || !fits(list.normals.size()) || !fits(list.colors.size()) ||
-      !fits(list.texcoords.size()) || !fits(list.morphs.size()))
+      !fits(list.texcoords.size()) || !fits(list.morphs.size()) || !fits(list.skin.size()) ||
+      !std::all_of(list.poses.begin(), list.poses.end(), [&](const Pose& pose) {
+        return pose.positions.size() == vertices && fits(pose.normals.size());
+      }))
     return fail(ErrorKind::kInvalidInput, "patches: attributes and positions differ in number");
   for (const std::uint32_t draw : list.changed_draws)
     if (draw >= list.draws.size())

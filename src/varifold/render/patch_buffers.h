@@ -4,6 +4,7 @@
 #include <varifold/base/result.h>
 #include <varifold/render/gl_objects.h>
 #include <varifold/render/mesh_buffers.h>
+#include <varifold/render/pose_buffers.h>
 #include <varifold/view/patch_draws.h>
 #include <cstddef>
 #include <cstdint>
@@ -15,7 +16,16 @@ namespace varifold::gl {
 /// Vertices and indices, uploaded once; and the commands, patched where they change.
 class PatchBuffers {
  public:
-  enum Storage : GLuint { kPositions, kNormals, kColors, kRemap, kMorphs, kMaterials, kCount };
+  enum Storage : GLuint {
+    kPositions,
+    kNormals,
+    kColors,
+    kRemap,
+    kMorphs,
+    kSkin,
+    kMaterials,
+    kCount
+  };
 
   /// Uploads all. kUnsupported where an array is greater than what shaders can read on the device,
   /// kFailed when memory ends. Returns the bytes uploaded.
@@ -26,6 +36,7 @@ class PatchBuffers {
   /// Uploads colours by material, unless they are those of the call before. Returns their number.
   int set_materials(std::span<const Vec4> colors);
 
+  [[nodiscard]] PoseBuffers& poses() { return poses_; }
   [[nodiscard]] bool has(Storage storage) const { return static_cast<bool>(storages_[storage]); }
   /// All commands in one call, with a program that follows patch_shaders.h.
   void draw() const;
@@ -35,6 +46,7 @@ class PatchBuffers {
   Buffer storages_[kCount];
   Buffer indices_;
   PatchedBuffer commands_;
+  PoseBuffers poses_;
   std::size_t vertex_count_ = 0, index_count_ = 0;
   std::uint32_t draw_count_ = 0;
   std::vector<std::uint32_t> changed_;  // sorted; kept, so that frames do not allocate

@@ -8,7 +8,8 @@
 
 namespace varifold::gl {
 
-/// Behind kSurfaceOutput (shaders.h). The buffers stand in the order of PatchBuffers::Storage.
+/// Behind kSurfaceOutput (shaders.h) and, to be drawn in poses, kPoseFunctions
+/// (pose_shaders.h) with POSED defined. The buffers stand in the order of PatchBuffers::Storage.
 inline constexpr std::string_view kPatchVertexShader = R"(
 layout(location = 0) in uvec4 words;  // first vertex of the parent's patch, mask, material, patch
 layout(location = 1) in float level;
@@ -18,7 +19,7 @@ layout(std430, binding = 1) readonly buffer Normals { float normals[]; };
 layout(std430, binding = 2) readonly buffer Colors { uint colors[]; };
 layout(std430, binding = 3) readonly buffer Remap { uint remap[]; };
 layout(std430, binding = 4) readonly buffer Morphs { uvec2 morphs[]; };  // target, bits of error
-layout(std430, binding = 5) readonly buffer Materials { vec4 material_colors[]; };  // linear
+layout(std430, binding = 6) readonly buffer Materials { vec4 material_colors[]; };  // linear
 
 uniform bool switch_borders;
 uniform bool has_normals;
@@ -32,12 +33,37 @@ uniform float morph_scale;
 uniform float morph_tolerance;
 uniform float morph_band;
 
-vec3 position_of(uint v) {
-  return vec3(positions[3u * v], positions[3u * v + 1u], positions[3u * v + 2u]);
+struct Place {
+  vec3 position;
+  vec3 normal;
+};
+
+Place place_at_rest(uint v) {
+  uint at = 3u * v;
+  vec3 normal = has_normals ? vec3(normals[at], normals[at + 1u], normals[at + 2u]) : vec3(0);
+  return Place(vec3(positions[at], positions[at + 1u], positions[at + 2u]), normal);
 }
-vec3 normal_of(uint v) {
-  return has_normals ? vec3(normals[3u * v], normals[3u * v + 1u], normals[3u * v + 2u]) : vec3(0);
+
+#ifdef POSED
+// Of each vertex two words with two joints each, and four weights.
+layout(std430, binding = 5) readonly buffer Skin { uint skin[]; };
+
+Place place_of(uint v) {
+  Place place = place_at_rest(v);
+  uvec4 joints = uvec4(0);
+  vec4 weights = vec4(0);
+  if (use_joints) {
+    uint at = 6u * v;
+    joints = uvec4(skin[at] & 0xffffu, skin[at] >> 16, skin[at + 1u] & 0xffffu, skin[at + 1u] >> 16);
+    weights = uintBitsToFloat(uvec4(skin[at + 2u], skin[at + 3u], skin[at + 4u], skin[at + 5u]));
+  }
+  move_vertex(int(v), joints, weights, place.position, place.normal);
+  return place;
 }
+#else
+Place place_of(uint v) { return place_at_rest(v); }
+#endif
+
 vec3 vertex_color(uint v) { return unpackUnorm4x8(colors[v]).rgb; }
 
 // The vertex itself, or its survivor where the draw's mask has the bit that moves it.
@@ -81,8 +107,9 @@ vec3 srgb_from_linear(vec3 c) {
                                                        R"(
 void main() {
   uint v = drawn_vertex(uint(gl_VertexID));
-  vec3 own = position_of(v);
-  vec3 normal = normal_of(v);
+  Place here = place_of(v);
+  vec3 own = here.position;
+  vec3 normal = here.normal;
   bool by_vertex = color_mode == 2;
   vec3 color = by_vertex ? vertex_color(v) : plain_color;
   if (color_mode == 1 && words.z < uint(material_count))
@@ -92,20 +119,19 @@ void main() {
 
   // On the way to the target, and to the target of that (morphed_position in patch_morph.h).
   vec3 way = vec3(0);
-  vec3 position = own;
   float weight = 1.0;
   for (int step = 0; step < 64 && morph_band > 0.0; ++step) {  // far more than there are levels
     uvec2 morph = morphs[v];
     if (morph.x == v) break;
-    float part = morph_part(position, uintBitsToFloat(morph.y));
+    float part = morph_part(here.position, uintBitsToFloat(morph.y));
     weight *= part;
     if (weight <= 0.0) break;
-    vec3 next = position_of(morph.x);
-    way += weight * (next - position);
-    normal += weight * (normal_of(morph.x) - normal_of(v));
+    Place next = place_of(morph.x);
+    way += weight * (next.position - here.position);
+    normal += weight * (next.normal - here.normal);
     if (by_vertex) color += weight * (vertex_color(morph.x) - vertex_color(v));
     v = morph.x;
-    position = next;
+    here = next;
   }
 
   surface.position = (placement * vec4(own, 1)).xyz - eye + mat3(placement) * way;

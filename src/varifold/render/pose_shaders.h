@@ -1,4 +1,4 @@
-// Private to this folder: the vertex shader of meshes that move.
+// Private to this folder: what moves vertices in shaders, and the vertex shader of meshes.
 //
 // Based on: [Ramos2008] figure 6.10 (two shapes and a parameter).
 // Differs: up to eight weighted poses, and joints after them; normals by the cofactors of a joint's
@@ -12,14 +12,8 @@ namespace varifold::gl {
 // So many poses may have a weight in one draw.
 inline constexpr int kMostPoses = 8;
 
-// Behind kSurfaceOutput.
-inline constexpr std::string_view kPosedVertexShader = R"(
-layout(location = 0) in vec3 position;
-layout(location = 1) in vec3 normal;
-layout(location = 3) in vec4 color;
-layout(location = 4) in uvec4 joints;
-layout(location = 5) in vec4 joint_weights;
-
+// Where vertices go; before the shader that asks.
+inline constexpr std::string_view kPoseFunctions = R"(
 uniform samplerBuffer poses;   // of each pose the places, then the normals, pose_stride each
 uniform samplerBuffer matrices;  // of each joint four columns
 uniform int pose_stride;
@@ -34,13 +28,13 @@ mat4 matrix_of(uint joint) {
               texelFetch(matrices, at + 2), texelFetch(matrices, at + 3));
 }
 
-void main() {
-  vec3 place = position;
-  vec3 direction = normal;
+// The normal becomes a unit, or zero where there is no direction.
+void move_vertex(int v, uvec4 joints, vec4 joint_weights, inout vec3 place, inout vec3 normal) {
+  vec3 rest_place = place, rest_normal = normal;
   for (int i = 0; i < pose_count; ++i) {
-    int at = 2 * pose_of[i] * pose_stride + gl_VertexID;
-    place += weight_of[i] * (texelFetch(poses, at).xyz - position);
-    direction += weight_of[i] * (texelFetch(poses, at + pose_stride).xyz - normal);
+    int at = 2 * pose_of[i] * pose_stride + v;
+    place += weight_of[i] * (texelFetch(poses, at).xyz - rest_place);
+    normal += weight_of[i] * (texelFetch(poses, at + pose_stride).xyz - rest_normal);
   }
   if (use_joints) {
     mat4 joint = joint_weights.x * matrix_of(joints.x) + joint_weights.y * matrix_of(joints.y) +
@@ -48,10 +42,24 @@ void main() {
     place = (joint * vec4(place, 1)).xyz;
     mat3 m = mat3(joint);
     mat3 cofactors = mat3(cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1]));
-    direction = sign(dot(m[0], cofactors[0])) * (cofactors * direction);
+    normal = sign(dot(m[0], cofactors[0])) * (cofactors * normal);
   }
-  float size = length(direction);
-  direction = size > 1e-20 ? direction / size : vec3(0);
+  float size = length(normal);
+  normal = size > 1e-20 ? normal / size : vec3(0);
+}
+)";
+
+// Behind kSurfaceOutput and kPoseFunctions.
+inline constexpr std::string_view kPosedVertexShader = R"(
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 3) in vec4 color;
+layout(location = 4) in uvec4 joints;
+layout(location = 5) in vec4 joint_weights;
+
+void main() {
+  vec3 place = position, direction = normal;
+  move_vertex(gl_VertexID, joints, joint_weights, place, direction);
   surface.position = (placement * vec4(place, 1)).xyz - eye;
   surface.normal = mat3(placement) * direction;
   surface.color = color.rgb;

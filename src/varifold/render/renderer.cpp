@@ -120,6 +120,22 @@ void Renderer::Impl::draw_ranges(const gl::Program& program, const DrawList& lis
   }
 }
 
+Result<void> Renderer::Impl::make_programs(const VertexProgram& programs) {
+  if (programs.shaded) return {};
+  const gl::ShaderStage vertex{GL_VERTEX_SHADER, programs.source, programs.head};
+  const gl::ShaderStage geometry{GL_GEOMETRY_SHADER, gl::kWireGeometryShader};
+  const gl::ShaderStage fragment{GL_FRAGMENT_SHADER, gl::kMeshFragmentShader};
+  const gl::ShaderStage wire{GL_FRAGMENT_SHADER, gl::kMeshFragmentShader, kWireDefine};
+  const std::string wire_name = std::string(programs.name) + " in wires";
+  auto made = gl::assign(programs.shaded, gl::make_program(programs.name, {vertex, fragment}));
+  if (made) made = gl::assign(programs.wire, gl::make_program(wire_name, {vertex, geometry, wire}));
+  if (made && in_frame) {
+    set_camera_uniforms(programs.shaded);
+    set_camera_uniforms(programs.wire);
+  }
+  return made;
+}
+
 void Renderer::Impl::set_raster_state(const DrawStyle& style) const {
   glBindFramebuffer(GL_FRAMEBUFFER, targets.scene.name());
   glViewport(0, 0, targets.scene_size.width, targets.scene_size.height);
@@ -149,18 +165,8 @@ Result<Renderer> Renderer::create() {
   if (epoxy_gl_version() < 45)
     return fail(ErrorKind::kFailed, "renderer: needs a current context with OpenGL 4.5");
   auto impl = std::make_unique<Impl>();
-  const gl::ShaderStage mesh_vertex{GL_VERTEX_SHADER, gl::kMeshVertexShader, gl::kSurfaceOutput};
-  const gl::ShaderStage wire_geometry{GL_GEOMETRY_SHADER, gl::kWireGeometryShader};
-  const auto fragment = [](std::string_view source, std::string_view defines) {
-    return gl::ShaderStage{GL_FRAGMENT_SHADER, source, defines};
-  };
-  Result<void> made =
-      gl::assign(impl->mesh_program,
-                 gl::make_program("mesh", {mesh_vertex, fragment(gl::kMeshFragmentShader, "")}));
-  if (made)
-    made = gl::assign(impl->wire_program,
-                      gl::make_program("wire", {mesh_vertex, wire_geometry,
-                                                fragment(gl::kMeshFragmentShader, kWireDefine)}));
+  auto made = impl->make_programs({impl->mesh_program, impl->wire_program, "meshes",
+                                   gl::kMeshVertexShader, gl::kSurfaceOutput});
   if (made) made = impl->passes.create();
   if (!made) return tl::unexpected<Error>(std::move(made.error()));
 
@@ -224,16 +230,11 @@ Result<void> Renderer::begin(const Camera& camera, const PictureOptions& options
   const GLfloat farthest = 1;
   glClearNamedFramebufferfv(targets.scene.name(), GL_COLOR, 0, empty);
   glClearNamedFramebufferfv(targets.scene.name(), GL_DEPTH, 0, &farthest);
-  impl_->set_camera_uniforms(impl_->mesh_program);
-  impl_->set_camera_uniforms(impl_->wire_program);
-  if (impl_->posed_program) {
-    impl_->set_camera_uniforms(impl_->posed_program);
-    impl_->set_camera_uniforms(impl_->posed_wire_program);
-  }
-  if (impl_->patch_program) {
-    impl_->set_camera_uniforms(impl_->patch_program);
-    impl_->set_camera_uniforms(impl_->patch_wire_program);
-  }
+  for (const gl::Program* program :
+       {&impl_->mesh_program, &impl_->wire_program, &impl_->posed_program,
+        &impl_->posed_wire_program, &impl_->patch_program, &impl_->patch_wire_program,
+        &impl_->posed_patch_program, &impl_->posed_patch_wire_program})
+    if (*program) impl_->set_camera_uniforms(*program);
   impl_->in_frame = true;
   impl_->resolved = false;
   return gl::check_errors("beginning a picture");
@@ -254,7 +255,10 @@ Result<void> Renderer::draw(GpuMesh mesh, const DrawList& list, const DrawStyle&
   const gl::Program& program = is_posed ? moved : still;
   impl_->set_style_uniforms(program, style);
   if (is_posed)
-    if (auto set = impl_->set_pose(program, *buffers, style.pose); !set) return set;
+    if (auto set = impl_->set_pose(program, buffers->poses(), buffers->has(MeshBuffers::kJoints),
+                                   style.pose);
+        !set)
+      return set;
   const bool colored =
       style.color_mode == ColorMode::kVertexColor && buffers->has(MeshBuffers::kColor);
   gl::set_uniform(program, "use_vertex_color", static_cast<int>(colored));

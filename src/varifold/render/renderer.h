@@ -62,7 +62,7 @@ struct DrawStyle {
   bool call_per_strip = false;
   /// Model to world. A rotation, a uniform scale without mirroring, and a translation.
   Mat4 placement{1.0f};
-  DrawPose pose;  ///< of lists with poses or a skin; not of patches
+  DrawPose pose;  ///< of lists, and lists of patches, with poses or a skin
 };
 
 /// How a list of patches is drawn, beside its style.

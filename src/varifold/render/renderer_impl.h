@@ -8,6 +8,7 @@
 #include <varifold/render/picture_passes.h>
 #include <varifold/render/renderer.h>
 #include <memory>
+#include <string_view>
 #include <vector>
 
 namespace varifold {
@@ -16,6 +17,7 @@ struct Renderer::Impl {
   gl::Program mesh_program, wire_program;
   gl::Program patch_program, patch_wire_program;  // made when the first patches are added
   gl::Program posed_program, posed_wire_program;  // made when the first pose is drawn
+  gl::Program posed_patch_program, posed_patch_wire_program;
   gl::PicturePasses passes;
   gl::FrameTargets targets;
   int max_samples = 1;
@@ -46,10 +48,18 @@ struct Renderer::Impl {
   void set_raster_state(const DrawStyle& style) const;
   void draw_ranges(const gl::Program& program, const DrawList& list, const DrawStyle& style);
   void draw_strips(const gl::Program& program, const DrawList& list, const DrawStyle& style) const;
+  /// A program with its wireframe, by the vertex shader in which alone they differ.
+  struct VertexProgram {
+    gl::Program& shaded;
+    gl::Program& wire;
+    std::string_view name, source, head;
+  };
+  [[nodiscard]] Result<void> make_programs(const VertexProgram& programs);
   [[nodiscard]] Result<void> make_posed_programs();
-  [[nodiscard]] Result<void> set_pose(const gl::Program& program, gl::MeshBuffers& buffers,
-                                      const DrawPose& pose) const;
+  [[nodiscard]] Result<void> set_pose(const gl::Program& program, gl::PoseBuffers& poses,
+                                      bool has_skin, const DrawPose& pose) const;
   [[nodiscard]] Result<void> make_patch_programs();
+  [[nodiscard]] Result<void> make_posed_patch_programs();
   void set_patch_uniforms(const gl::Program& program, gl::PatchBuffers& buffers,
                           const DrawStyle& style, const PatchStyle& patch_style) const;
   [[nodiscard]] Result<void> resolve();

@@ -24,27 +24,14 @@ tl::unexpected<Error> error_of(Result<T>& result) {
 
 }  // namespace
 
-// Programs of patches differ in their vertex shader alone.
 Result<void> Renderer::Impl::make_patch_programs() {
-  if (patch_program) return {};
   GLint blocks = 0;
   glGetIntegerv(GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS, &blocks);
   if (blocks < static_cast<GLint>(PatchBuffers::kCount))
     return fail(ErrorKind::kUnsupported,
                 "renderer: vertex shaders of this device cannot read the buffers of patches");
-  const gl::ShaderStage vertex{GL_VERTEX_SHADER, gl::kPatchVertexShader, gl::kSurfaceOutput};
-  const gl::ShaderStage geometry{GL_GEOMETRY_SHADER, gl::kWireGeometryShader};
-  const gl::ShaderStage fragment{GL_FRAGMENT_SHADER, gl::kMeshFragmentShader};
-  const gl::ShaderStage wire{GL_FRAGMENT_SHADER, gl::kMeshFragmentShader, "#define WIRE\n"};
-  auto made = gl::assign(patch_program, gl::make_program("patches", {vertex, fragment}));
-  if (made)
-    made =
-        gl::assign(patch_wire_program, gl::make_program("patch wires", {vertex, geometry, wire}));
-  if (made && in_frame) {
-    set_camera_uniforms(patch_program);
-    set_camera_uniforms(patch_wire_program);
-  }
-  return made;
+  return make_programs(
+      {patch_program, patch_wire_program, "patches", gl::kPatchVertexShader, gl::kSurfaceOutput});
 }
 
 void Renderer::Impl::set_patch_uniforms(const gl::Program& program, PatchBuffers& buffers,
@@ -101,12 +88,23 @@ Result<void> Renderer::draw(GpuPatches patches, const DrawStyle& style,
   if (!impl_->in_frame) return fail(ErrorKind::kFailed, "renderer: nothing was begun");
   PatchBuffers* const buffers = impl_->find(patches);
   if (!buffers) return no_patches();
+  const bool is_posed = !style.pose.empty();
+  if (is_posed)
+    if (auto made = impl_->make_posed_patch_programs(); !made) return made;
   impl_->resolved = false;
   impl_->set_raster_state(style);
   // The greatest index of a patch may be what would end a strip.
   glDisable(GL_PRIMITIVE_RESTART_FIXED_INDEX);
-  const gl::Program& program = style.wireframe ? impl_->patch_wire_program : impl_->patch_program;
+  const gl::Program& still = style.wireframe ? impl_->patch_wire_program : impl_->patch_program;
+  const gl::Program& moved =
+      style.wireframe ? impl_->posed_patch_wire_program : impl_->posed_patch_program;
+  const gl::Program& program = is_posed ? moved : still;
   impl_->set_style_uniforms(program, style);
+  if (is_posed) {
+    const bool has_skin = buffers->has(PatchBuffers::kSkin);
+    if (auto set = impl_->set_pose(program, buffers->poses(), has_skin, style.pose); !set)
+      return set;
+  }
   impl_->set_patch_uniforms(program, *buffers, style, patch_style);
   glUseProgram(program.name());
   buffers->draw();

@@ -1,4 +1,5 @@
 // What a renderer does with meshes that move.
+#include <varifold/render/patch_shaders.h>
 #include <varifold/render/pose_shaders.h>
 #include <varifold/render/renderer.h>
 #include <varifold/render/renderer_impl.h>
@@ -20,26 +21,20 @@ const char* const kWeightOf[gl::kMostPoses] = {"weight_of[0]", "weight_of[1]", "
 
 }  // namespace
 
-// Programs of meshes that move differ in their vertex shader alone.
 Result<void> Renderer::Impl::make_posed_programs() {
-  if (posed_program) return {};
-  const gl::ShaderStage vertex{GL_VERTEX_SHADER, gl::kPosedVertexShader, gl::kSurfaceOutput};
-  const gl::ShaderStage geometry{GL_GEOMETRY_SHADER, gl::kWireGeometryShader};
-  const gl::ShaderStage fragment{GL_FRAGMENT_SHADER, gl::kMeshFragmentShader};
-  const gl::ShaderStage wire{GL_FRAGMENT_SHADER, gl::kMeshFragmentShader, "#define WIRE\n"};
-  auto made = gl::assign(posed_program, gl::make_program("poses", {vertex, fragment}));
-  if (made)
-    made = gl::assign(posed_wire_program, gl::make_program("pose wires", {vertex, geometry, wire}));
-  if (made && in_frame) {
-    set_camera_uniforms(posed_program);
-    set_camera_uniforms(posed_wire_program);
-  }
-  return made;
+  const std::string head = std::string(gl::kSurfaceOutput).append(gl::kPoseFunctions);
+  return make_programs({posed_program, posed_wire_program, "poses", gl::kPosedVertexShader, head});
 }
 
-Result<void> Renderer::Impl::set_pose(const gl::Program& program, gl::MeshBuffers& buffers,
-                                      const DrawPose& pose) const {
-  gl::PoseBuffers& poses = buffers.poses();
+Result<void> Renderer::Impl::make_posed_patch_programs() {
+  const std::string head =
+      std::string(gl::kSurfaceOutput).append(gl::kPoseFunctions).append("#define POSED\n");
+  return make_programs(
+      {posed_patch_program, posed_patch_wire_program, "patch poses", gl::kPatchVertexShader, head});
+}
+
+Result<void> Renderer::Impl::set_pose(const gl::Program& program, gl::PoseBuffers& poses,
+                                      bool has_skin, const DrawPose& pose) const {
   int count = 0;
   for (std::size_t i = 0; i < pose.weights.size(); ++i) {
     if (pose.weights[i] == 0) continue;
@@ -52,7 +47,7 @@ Result<void> Renderer::Impl::set_pose(const gl::Program& program, gl::MeshBuffer
     gl::set_uniform(program, kWeightOf[count], pose.weights[i]);
     ++count;
   }
-  const bool use_joints = !pose.joints.empty() && buffers.has(gl::MeshBuffers::kJoints);
+  const bool use_joints = !pose.joints.empty() && has_skin;
   if (use_joints) poses.set_joints(pose.joints);
   gl::set_uniform(program, "pose_count", count);
   gl::set_uniform(program, "pose_stride", static_cast<int>(poses.stride()));

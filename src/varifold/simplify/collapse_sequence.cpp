@@ -104,10 +104,7 @@ void cut_below(std::uint32_t level, CollapseSequence& sequence) {
       if (!values.empty()) values.erase(values.begin(), values.begin() + unused);
     };
     drop_unused(sequence.placed_vertex);
-    drop_unused(sequence.placed.positions);
-    drop_unused(sequence.placed.normals);
-    drop_unused(sequence.placed.texcoords);
-    drop_unused(sequence.placed.colors);
+    for_each_vertex_array(sequence.placed, drop_unused);
   }
   for (std::uint32_t& l : sequence.triangle_level) l = l > level ? l - level : 0;
 }

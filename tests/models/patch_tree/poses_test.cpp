@@ -46,6 +46,18 @@ std::vector<test::NamedMesh> posed_meshes() {
   return meshes;
 }
 
+// The same in poses that are turned: cones and errors are those of what lies between them.
+std::vector<test::NamedMesh> turned_meshes() {
+  std::vector<test::NamedMesh> meshes = test::all_groups();
+  meshes.push_back({"planet", planet({{.triangles = 4000}})});
+  std::uint64_t seed = 40;
+  for (test::NamedMesh& named : meshes) {
+    named.name += " turned";
+    named.mesh = test::with_turned_poses(std::move(named.mesh), 2, ++seed, 0.9f);
+  }
+  return meshes;
+}
+
 TEST(PatchTreePoses, EveryFrontIsSoundInEveryShape) {
   std::uint64_t seed = 0;
   for (const auto& [name, mesh] : posed_meshes()) {
@@ -71,7 +83,9 @@ TEST(PatchTreePoses, EveryFrontIsSoundInEveryShape) {
 
 TEST(PatchTreePoses, BallsConesAndErrorsHoldInEveryBlend) {
   std::uint64_t seed = 300, narrow = 0;
-  for (const auto& [name, mesh] : posed_meshes()) {
+  std::vector<test::NamedMesh> meshes = posed_meshes();
+  for (test::NamedMesh& named : turned_meshes()) meshes.push_back(std::move(named));
+  for (const auto& [name, mesh] : meshes) {
     SCOPED_TRACE(name);
     const PatchTreeBuild built = build(mesh, 16);
     const PatchTreeData& data = built.tree.data();

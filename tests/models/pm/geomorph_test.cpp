@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 #include <tests/models/pm/pm_support.h>
+#include <tests/support/poses.h>
+#include <tests/support/rigged_meshes.h>
+#include <varifold/mesh/pose_blend.h>
 
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 
 namespace varifold::test {
 namespace {
@@ -87,6 +91,46 @@ TEST(Geomorph, VerticesMoveInStraightLines) {
     const Vec3 expected = 0.75f * positions[model.ancestor(v, coarse)] + 0.25f * positions[v];
     EXPECT_LT(glm::distance(geomorph.mesh().positions[v], expected), 1e-6f);
   }
+}
+
+// In every pose and under every joint the ends are those of the levels there, and no step on the
+// way is much longer than its part.
+TEST(Geomorph, PosesAndJointsMoveAlong) {
+  TriangleMesh mesh = with_poses(with_random_rig(icosphere(500), 3, {.poses = 0}), 2, 5, 0.1f);
+  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v)  // two joints, so that none is cut
+    mesh.skin[v] = {{0, 1, 0, 0}, {0.1f + 0.01f * (v % 80), 0.9f - 0.01f * (v % 80), 0, 0}};
+  const NamedModel named = make_model({"rigged", mesh}, Placement::kKept);
+  const ProgressiveMesh& model = *named.model;
+  const std::uint32_t coarse = model.finest_level() / 2;
+  const std::vector<glm::mat4> joints{glm::mat4(1),
+                                      glm::rotate(glm::mat4(1), 1.5f, Vec3(0.6f, 0.8f, 0))};
+  const std::vector<float> weights{0.3f, 0.6f};
+  const auto places = [&](const TriangleMesh& shown) {
+    PosedVertices vertices = blend_poses(shown, weights);
+    skin_vertices(shown.skin, joints, vertices);
+    return vertices.positions;
+  };
+  const std::vector<Vec3> full = places(model.attributes());
+  Geomorph geomorph(model, model.finest_level(), coarse);
+  geomorph.blend(0);
+  std::vector<Vec3> before = places(geomorph.mesh());
+  for (std::uint32_t v = 0; v < full.size(); ++v)
+    ASSERT_LE(glm::distance(before[v], full[model.ancestor(v, coarse)]), 1e-6f);
+  constexpr int kSteps = 16;
+  for (int i = 1; i <= kSteps; ++i) {
+    geomorph.blend(static_cast<float>(i) / kSteps);
+    const std::vector<Vec3> now = places(geomorph.mesh());
+    for (std::uint32_t v = 0; v < full.size(); ++v) {
+      const std::uint32_t from = model.ancestor(v, coarse);
+      // Where weights and places move at once the way is a curve.
+      const float turn =
+          glm::distance(model.attributes().positions[v], model.attributes().positions[from]);
+      ASSERT_LE(glm::distance(now[v], before[v]),
+                (glm::distance(full[v], full[from]) + 2 * turn) / kSteps + 1e-6f);
+    }
+    before = now;
+  }
+  for (std::uint32_t v = 0; v < full.size(); ++v) ASSERT_EQ(before[v], full[v]);
 }
 
 TEST(Geomorph, VerticesSetOffInOrder) {

@@ -2,11 +2,14 @@
 #include <gtest/gtest.h>
 #include <tests/models/vdpm/geomorph_simulation.h>
 #include <tests/models/vdpm/vdpm_support.h>
+#include <tests/support/rigged_meshes.h>
 
+#include <varifold/mesh/pose_blend.h>
 #include <varifold/mesh/weld.h>
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <glm/gtc/matrix_transform.hpp>
 #include <tuple>
 #include <utility>
 
@@ -94,6 +97,71 @@ TEST(FrontGeomorphs, MoveAsTheRuleSays) {
     }
   }
   EXPECT_GT(turns, 1000);
+}
+
+// A pose that is an affine image of the mesh at rest is one of what is drawn, on any way.
+TEST(FrontGeomorphs, MovePosesAlong) {
+  TriangleMesh mesh = icosphere(2000);
+  mesh.normals.clear();
+  const glm::mat3 linear(1.2f, 0.1f, 0.3f, -0.2f, 0.9f, 0, 0.1f, 0.4f, 1);
+  const auto image = [&](const Vec3& p) { return linear * p + Vec3(3, 1, 2); };
+  Pose pose;
+  for (const Vec3& p : mesh.positions) pose.positions.push_back(image(p));
+  mesh.poses.push_back(pose);
+  const auto model = std::make_shared<const ViewDependentMesh>(
+      build_view_dependent_mesh(simplify(mesh)->detailed));
+  ViewDependentInstance moving(model);
+  RestlessCamera camera(*model, 11);
+  std::uint32_t moves = 0;
+  for (int frame = 0; frame < 40; ++frame) {
+    moving.adapt(camera.next(), {1, kNone}, with_morphs(6));
+    moves += moving.moving_vertices();
+    const DrawList list = moving.draw_list();
+    for (const std::uint32_t v : list.indices)
+      ASSERT_LE(glm::length(list.poses[0].positions[v] - image(list.positions[v])), 1e-5f);
+  }
+  EXPECT_GT(moves, 100u);
+}
+
+// Joints go along, too: the last step of a way is no jump to other weights.
+TEST(FrontGeomorphs, MoveJointsAlong) {
+  TriangleMesh mesh = with_random_rig(icosphere(2000), 3, {.poses = 0});
+  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v)
+    mesh.skin[v] = {{0, 1, 0, 0}, {0.1f + 0.01f * (v % 80), 0.9f - 0.01f * (v % 80), 0, 0}};
+  const auto model = std::make_shared<const ViewDependentMesh>(
+      build_view_dependent_mesh(simplify(mesh)->detailed));
+  const std::vector<glm::mat4> joints{glm::mat4(1),
+                                      glm::rotate(glm::mat4(1), 1.5f, Vec3(0.6f, 0.8f, 0))};
+  const auto places = [&](const DrawList& list) {
+    PosedVertices vertices;
+    vertices.positions.assign(list.positions.begin(), list.positions.end());
+    skin_vertices(list.skin, joints, vertices);
+    return vertices.positions;
+  };
+  constexpr std::uint32_t kFrames = 8;
+  ViewDependentInstance moving(model);
+  for (const float distance : {60.0f, 2.0f}) {
+    const RefineCriteria criteria = seen_from(model->bounding_ball(), Vec3(0, 0, distance));
+    std::vector<std::vector<Vec3>> ways;
+    std::vector<std::uint32_t> drawn;  // those of the finer front, all the time from the first
+    for (std::uint32_t frame = 0; frame < kFrames; ++frame) {
+      moving.adapt(criteria, {1, kNone}, with_morphs(kFrames));
+      const DrawList list = moving.draw_list();
+      ways.push_back(places(list));
+      if (frame == 0) drawn.assign(list.indices.begin(), list.indices.end());
+    }
+    if (distance > 10) continue;
+    EXPECT_EQ(moving.moving_vertices(), 0u);
+    float longest = 0;
+    for (const std::uint32_t v : drawn) {
+      float whole = 0;
+      for (std::size_t i = 1; i < kFrames; ++i) whole += glm::distance(ways[i][v], ways[i - 1][v]);
+      longest = std::max(longest, whole);
+      const float last = glm::distance(ways[kFrames - 1][v], ways[kFrames - 2][v]);
+      ASSERT_LE(last, 0.35f * whole + 1e-5f) << v;
+    }
+    EXPECT_GT(longest, 0.01f);
+  }
 }
 
 // From where a vertex, or what stood for it, was drawn in the frame before.

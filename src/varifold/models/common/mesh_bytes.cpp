@@ -10,16 +10,6 @@ namespace varifold {
 
 namespace {
 
-enum Attribute : std::uint32_t {
-  kNormals = 1,
-  kTexcoords = 2,
-  kColors = 4,
-  kSkin = 8,
-  kPoses = 16,
-  kRig = 32,
-  kAll = 63
-};
-
 constexpr std::size_t kLeastMaterial = 69;
 constexpr std::size_t kLeastImage = 3 * 4 + 8;
 
@@ -74,6 +64,13 @@ void take_vectors(SectionReader& section, std::uint32_t count, std::vector<V>& v
 
 }  // namespace
 
+std::uint32_t stored_attributes(const TriangleMesh& mesh) {
+  return (mesh.has_normals() ? kStoredNormals : 0u) |
+         (mesh.has_texcoords() ? kStoredTexcoords : 0u) | (mesh.has_colors() ? kStoredColors : 0u) |
+         (mesh.has_skin() ? kStoredSkin : 0u) | (mesh.poses.empty() ? 0u : kStoredPoses) |
+         (mesh.rig ? kStoredRig : 0u);
+}
+
 void append_materials(const std::vector<Material>& materials, std::vector<std::byte>& bytes) {
   append_little(bytes, static_cast<std::uint32_t>(materials.size()));
   for (const Material& material : materials) append_material(bytes, material);
@@ -92,12 +89,10 @@ void append_images(const std::vector<Image>& images, std::vector<std::byte>& byt
 }
 
 void append_attributes(const TriangleMesh& mesh, std::vector<std::byte>& bytes, bool has_rig) {
-  has_rig = has_rig && mesh.rig;
+  const std::uint32_t all = has_rig ? kStoredAll : kStoredAll & ~std::uint32_t{kStoredRig};
+  const std::uint32_t stored = stored_attributes(mesh) & all;
   append_little(bytes, mesh.vertex_count());
-  append_little(bytes, (mesh.has_normals() ? kNormals : 0u) |
-                           (mesh.has_texcoords() ? kTexcoords : 0u) |
-                           (mesh.has_colors() ? kColors : 0u) | (mesh.has_skin() ? kSkin : 0u) |
-                           (mesh.poses.empty() ? 0u : kPoses) | (has_rig ? kRig : 0u));
+  append_little(bytes, stored);
   append_vectors(mesh.positions, bytes);
   append_vectors(mesh.normals, bytes);
   append_vectors(mesh.texcoords, bytes);
@@ -108,7 +103,7 @@ void append_attributes(const TriangleMesh& mesh, std::vector<std::byte>& bytes, 
     append_vectors(pose.positions, bytes);
     append_vectors(pose.normals, bytes);
   }
-  if (has_rig) append_rig(*mesh.rig, bytes);
+  if ((stored & kStoredRig) != 0) append_rig(*mesh.rig, bytes);
 }
 
 std::vector<Material> take_materials(SectionReader& section) {
@@ -160,14 +155,15 @@ void take_attributes(SectionReader& section, TriangleMesh& mesh,
                      const std::shared_ptr<const Rig>& rig) {
   const auto count = section.take<std::uint32_t>();
   const auto present = section.take<std::uint32_t>();
-  if ((present & ~std::uint32_t{kAll}) != 0) section.fail_here();
+  if ((present & ~std::uint32_t{kStoredAll}) != 0) section.fail_here();
   take_vectors(section, count, mesh.positions);
-  if ((present & kNormals) != 0) take_vectors(section, count, mesh.normals);
-  if ((present & kTexcoords) != 0) take_vectors(section, count, mesh.texcoords);
-  if ((present & kColors) != 0) take_vectors(section, count, mesh.colors);
-  if ((present & kSkin) != 0) take_skin(section, count, mesh);
-  if ((present & kPoses) != 0) take_poses(section, count, mesh);
-  mesh.rig = (present & kRig) != 0 && section.good() ? take_rig(section, mesh.poses.size()) : rig;
+  if ((present & kStoredNormals) != 0) take_vectors(section, count, mesh.normals);
+  if ((present & kStoredTexcoords) != 0) take_vectors(section, count, mesh.texcoords);
+  if ((present & kStoredColors) != 0) take_vectors(section, count, mesh.colors);
+  if ((present & kStoredSkin) != 0) take_skin(section, count, mesh);
+  if ((present & kStoredPoses) != 0) take_poses(section, count, mesh);
+  mesh.rig =
+      (present & kStoredRig) != 0 && section.good() ? take_rig(section, mesh.poses.size()) : rig;
   const std::size_t joints = mesh.rig ? mesh.rig->joints.size() : 0;
   for (const JointWeights& followed : mesh.skin)
     if (!is_sound(followed, joints)) section.fail_here();

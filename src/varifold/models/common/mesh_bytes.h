@@ -5,11 +5,25 @@
 #include <varifold/mesh/triangle_mesh.h>
 #include <varifold/models/common/section_reader.h>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
 
 namespace varifold {
+
+/// Which arrays are stored, and whether there is a rig: bits of a word in files of all models.
+enum StoredAttribute : std::uint32_t {
+  kStoredNormals = 1,
+  kStoredTexcoords = 2,
+  kStoredColors = 4,
+  kStoredSkin = 8,
+  kStoredPoses = 16,
+  kStoredRig = 32,
+  kStoredAll = 63
+};
+/// Those of a mesh.
+[[nodiscard]] std::uint32_t stored_attributes(const TriangleMesh& mesh);
 
 void append_materials(const std::vector<Material>& materials, std::vector<std::byte>& bytes);
 void append_images(const std::vector<Image>& images, std::vector<std::byte>& bytes);

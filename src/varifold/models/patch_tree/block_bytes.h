@@ -8,16 +8,6 @@ namespace varifold {
 
 inline constexpr char kPatchTreeTag[] = "VPT1";
 
-enum PatchAttribute : std::uint32_t {
-  kPatchNormals = 1,
-  kPatchTexcoords = 2,
-  kPatchColors = 4,
-  kPatchSkin = 8,
-  kPatchPoses = 16,
-  kPatchRig = 32,
-  kPatchAll = 63
-};
-
 /// Numbers below `count` take so many bytes each.
 [[nodiscard]] inline std::size_t bytes_of_number(std::uint32_t count) {
   return count <= 256 ? 1 : 2;

@@ -238,10 +238,12 @@ bool Builder::make_levels_of_detail() {
   const PoseField poses(surface_, shapes_, options_.threads);
   std::optional<ShapeTable> shapes;
   if (!poses.empty()) shapes.emplace(surface_, poses);
-  const PoseField ordering(surface_, ordering_shapes(mesh_, options_.poses), options_.threads);
-  LevelHalving halving(
-      surface_, attributes_,
-      {options_.threads, options_.progress, ordering.empty() ? nullptr : &ordering});
+  const auto ordering = ordering_shapes(mesh_, options_.poses);
+  const bool all_order = ordering.size() == shapes_.size();
+  const PoseField some = all_order ? PoseField() : PoseField(surface_, ordering, options_.threads);
+  LevelHalving halving(surface_, attributes_,
+                       {options_.threads, options_.progress,
+                        ordering.empty() ? nullptr : (all_order ? &poses : &some)});
   std::optional<LevelErrors> errors;  // made when the first collapses are done: they need room, too
   for (std::uint32_t level = 0;; ++level) {
     if (level + 1 == levels_.level_count()) {

@@ -69,17 +69,17 @@ const char* HeadReader::take_materials_and_images() {
     for (const std::uint32_t image : material.textures)
       if (image != kNone && image >= head_.images.size()) return "a material names an image beyond";
   const auto present = section_.take<std::uint32_t>();
-  if (present > kPatchAll) return "unknown attributes";
-  head_.has_normals = (present & kPatchNormals) != 0;
-  head_.has_texcoords = (present & kPatchTexcoords) != 0;
-  head_.has_colors = (present & kPatchColors) != 0;
-  head_.has_skin = (present & kPatchSkin) != 0;
-  if ((present & kPatchPoses) != 0) {
+  if (present > kStoredAll) return "unknown attributes";
+  head_.has_normals = (present & kStoredNormals) != 0;
+  head_.has_texcoords = (present & kStoredTexcoords) != 0;
+  head_.has_colors = (present & kStoredColors) != 0;
+  head_.has_skin = (present & kStoredSkin) != 0;
+  if ((present & kStoredPoses) != 0) {
     PoseHead poses = take_pose_names(section_);
     head_.poses = std::move(poses.poses);
     head_.poses_have_normals = std::move(poses.has_normals);
   }
-  if ((present & kPatchRig) != 0 && section_.good())
+  if ((present & kStoredRig) != 0 && section_.good())
     head_.rig = take_rig(section_, head_.poses.size());
   return section_.good() ? nullptr : "the rig is damaged, or ends too early";
 }

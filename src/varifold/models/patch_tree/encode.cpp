@@ -93,11 +93,7 @@ void append_bounds(const PatchTreeData& data, Bytes& bytes) {
 }
 
 void append_attribute_head(const TriangleMesh& mesh, Bytes& bytes) {
-  append_little(bytes, (mesh.has_normals() ? kPatchNormals : 0u) |
-                           (mesh.has_texcoords() ? kPatchTexcoords : 0u) |
-                           (mesh.has_colors() ? kPatchColors : 0u) |
-                           (mesh.has_skin() ? kPatchSkin : 0u) |
-                           (mesh.poses.empty() ? 0u : kPatchPoses) | (mesh.rig ? kPatchRig : 0u));
+  append_little(bytes, stored_attributes(mesh));
   if (!mesh.poses.empty()) append_pose_names(mesh.poses, bytes);
   if (mesh.rig) append_rig(*mesh.rig, bytes);
 }

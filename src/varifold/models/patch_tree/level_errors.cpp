@@ -108,10 +108,8 @@ void LevelErrors::measure_carried(std::uint32_t point, Scratch& scratch) {
     for (const std::uint32_t s : samples) measure_in_shapes(s, nearest, scratch);
   } else {
     find_star(point, scratch);
-  }
-  for (std::size_t i = 0; !shapes_ && i < samples.size(); i += NearestBatch::kSize) {
-    const auto part = samples.subspan(i, std::min(NearestBatch::kSize, samples.size() - i));
-    measure_batch(part, scratch);
+    for (std::size_t i = 0; i < samples.size(); i += NearestBatch::kSize)
+      measure_batch(samples.subspan(i, std::min(NearestBatch::kSize, samples.size() - i)), scratch);
   }
   float greatest = 0;
   for (const std::uint32_t s : samples) greatest = std::max(greatest, squared_[s]);

@@ -1,5 +1,7 @@
 #include <varifold/models/pm/geomorph.h>
 
+#include <varifold/mesh/pose_blend.h>
+#include <varifold/mesh/vertex_arrays.h>
 #include <varifold/models/pm/instance.h>
 #include <varifold/view/draw_vertices.h>
 #include <algorithm>
@@ -61,56 +63,76 @@ Geomorph::Geomorph(const ProgressiveMesh& model, std::uint32_t level, std::uint3
                        0, level_fraction_});
 }
 
-Geomorph::Attributes Geomorph::attributes(const TriangleMesh& mesh, std::uint32_t vertex) {
-  Attributes attributes;
-  attributes.position = mesh.positions[vertex];
-  if (mesh.has_normals()) attributes.normal = mesh.normals[vertex];
-  if (mesh.has_texcoords()) attributes.texcoord = mesh.texcoords[vertex];
-  if (mesh.has_colors()) attributes.color = mesh.colors[vertex];
-  return attributes;
+namespace {
+
+// `b` is only read: there is no other way to visit two meshes at once.
+bool are_equal(const TriangleMesh& a, std::uint32_t of_a, TriangleMesh& b, std::uint32_t of_b) {
+  bool equal = true;
+  for_each_vertex_array(a, b, [&](const auto& one, const auto& other) {
+    if (!one.empty()) equal = equal && one[of_a] == other[of_b];
+  });
+  return equal;
 }
+
+}  // namespace
 
 void Geomorph::find_moves(const ProgressiveMesh& model, const TriangleMesh& coarse) {
   const std::uint32_t old_count = coarse.vertex_count();
   const std::uint32_t count = mesh_.vertex_count();
-  std::vector<std::uint32_t> ancestor(count);
+  std::vector<std::uint32_t> ancestor(count), from, to;
   for (std::uint32_t v = 0; v < count; ++v) {
     ancestor[v] = v < old_count ? v : ancestor[model.data().target[v]];
-    const Move move{v,
-                    v < old_count ? 0
-                                  : (1 - options_.share) * static_cast<float>(v - old_count) /
-                                        static_cast<float>(count - old_count),
-                    attributes(coarse, ancestor[v]), attributes(mesh_, v)};
-    if (move.coarse != move.fine) moves_.push_back(move);
+    if (are_equal(coarse, ancestor[v], mesh_, v)) continue;
+    from.push_back(ancestor[v]);
+    to.push_back(v);
+    moves_.push_back({v, v < old_count ? 0
+                                       : (1 - options_.share) * static_cast<float>(v - old_count) /
+                                             static_cast<float>(count - old_count)});
   }
+  coarse_ = gather_vertices(coarse, from);
+  fine_ = gather_vertices(mesh_, to);
 }
 
-void Geomorph::set(std::uint32_t vertex, const Attributes& attributes) {
-  mesh_.positions[vertex] = attributes.position;
-  if (mesh_.has_normals()) mesh_.normals[vertex] = attributes.normal;
-  if (mesh_.has_texcoords()) mesh_.texcoords[vertex] = attributes.texcoord;
-  if (mesh_.has_colors()) mesh_.colors[vertex] = attributes.color;
+void Geomorph::set(std::size_t number, const TriangleMesh& end) {
+  for_each_vertex_array(end, mesh_, [&](const auto& values, auto& drawn) {
+    if (!values.empty()) drawn[moves_[number].vertex] = values[number];
+  });
+}
+
+void Geomorph::set_between(std::size_t number, float part) {
+  const std::uint32_t vertex = moves_[number].vertex;
+  const auto blend_all = [&](const auto& a, const auto& b, auto& drawn, const auto& rule) {
+    if (!a.empty()) drawn[vertex] = rule(a[number], b[number], part);
+  };
+  const auto straight = [](const auto& a, const auto& b, float s) { return between(a, b, s); };
+  blend_all(coarse_.positions, fine_.positions, mesh_.positions, straight);
+  blend_all(coarse_.normals, fine_.normals, mesh_.normals, normal_between);
+  blend_all(coarse_.texcoords, fine_.texcoords, mesh_.texcoords, straight);
+  blend_all(coarse_.colors, fine_.colors, mesh_.colors, color_between);
+  blend_all(coarse_.skin, fine_.skin, mesh_.skin, mix_joints);
+  for (std::size_t k = 0; k < mesh_.poses.size(); ++k) {
+    const Pose &a = coarse_.poses[k], &b = fine_.poses[k];
+    blend_all(a.positions, b.positions, mesh_.poses[k].positions, straight);
+    blend_all(a.normals, b.normals, mesh_.poses[k].normals, straight);
+  }
 }
 
 void Geomorph::blend(float t) {
   vertices_changed_ = true;
   t = t > 0 ? std::min(t, 1.0f) : 0;
-  for (const Move& move : moves_) {
+  for (std::size_t i = 0; i < moves_.size(); ++i) {
     // At the ends the very attributes, whatever rounding would make of them.
-    float s = (t - move.start) / options_.share;
+    float s = (t - moves_[i].start) / options_.share;
     if (t >= 1 || s >= 1) {
-      set(move.vertex, move.fine);
+      set(i, fine_);
       continue;
     }
     if (s <= 0) {
-      set(move.vertex, move.coarse);
+      set(i, coarse_);
       continue;
     }
     if (options_.smooth_step) s = s * s * (3 - 2 * s);
-    const Attributes& a = move.coarse;
-    const Attributes& b = move.fine;
-    set(move.vertex, {between(a.position, b.position, s), normal_between(a.normal, b.normal, s),
-                      between(a.texcoord, b.texcoord, s), color_between(a.color, b.color, s)});
+    set_between(i, s);
   }
 }
 

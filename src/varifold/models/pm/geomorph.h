@@ -1,7 +1,9 @@
 // Smooth changes between two levels of a progressive mesh.
 //
 // Based on: [Hoppe1996] section 3.1.
-// Differs: colours move as well, and vertices may set off one after the other.
+// Differs: colours, poses and the weights of joints move as well, and vertices may set off one
+// after
+//   the other.
 #pragma once
 
 #include <varifold/models/pm/progressive_mesh.h>
@@ -36,8 +38,9 @@ class Geomorph {
   }
 
   /// 0: the looks of the coarse level, with triangles without area where it has none; 1: the fine
-  /// level, byte for byte. Cut to [0, 1]. Positions, texture coordinates and colours move in
-  /// straight lines, normals keep their length of 1. O(moving vertices).
+  /// level, byte for byte. Cut to [0, 1]. Positions, in poses too, texture coordinates, colours and
+  /// weights of joints (mix_joints) move in straight lines, normals keep their length of 1.
+  /// O(moving vertices).
   void blend(float t);
 
   /// What is drawn, and what blend() changed since the last call. Valid until the next blend().
@@ -46,26 +49,21 @@ class Geomorph {
   [[nodiscard]] const TriangleMesh& mesh() const { return mesh_; }
 
  private:
-  struct Attributes {
-    Vec3 position{0}, normal{0};
-    Vec2 texcoord{0};
-    Color color{0};
-    friend bool operator==(const Attributes&, const Attributes&) = default;
-  };
   struct Move {
     std::uint32_t vertex;
     float start;  // when it sets off
-    Attributes coarse, fine;
   };
-  [[nodiscard]] static Attributes attributes(const TriangleMesh& mesh, std::uint32_t vertex);
   void find_moves(const ProgressiveMesh& model, const TriangleMesh& coarse);
-  void set(std::uint32_t vertex, const Attributes& attributes);
+  // Of a move by its number.
+  void set(std::size_t number, const TriangleMesh& end);
+  void set_between(std::size_t number, float part);
 
   GeomorphOptions options_;
   std::uint32_t fine_level_, coarse_level_;
   float level_fraction_ = 1;
   TriangleMesh mesh_;
   std::vector<Move> moves_;
+  TriangleMesh coarse_, fine_;  // the attributes of the moves at their ends
   std::vector<DrawRange> ranges_;
   bool indices_are_new_ = true;
   bool vertices_changed_ = true;

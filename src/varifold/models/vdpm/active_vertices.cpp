@@ -1,5 +1,6 @@
 #include <varifold/models/vdpm/active_vertices.h>
 
+#include <varifold/mesh/pose_blend.h>
 #include <varifold/mesh/vertex_arrays.h>
 #include <algorithm>
 #include <cmath>
@@ -64,6 +65,8 @@ void ActiveVertices::approach_more(std::uint32_t slot, const TriangleMesh& goal,
     if (!pose.normals.empty())
       pose.normals[slot] += part * (goal.poses[i].normals[index] - pose.normals[slot]);
   }
+  if (buffer_.has_skin())
+    buffer_.skin[slot] = mix_joints(buffer_.skin[slot], goal.skin[index], part);
   if (buffer_.has_texcoords()) {
     Vec2& texcoord = buffer_.texcoords[slot];
     texcoord += part * goal.texcoords[index] - part * texcoord;

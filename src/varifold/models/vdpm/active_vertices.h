@@ -55,8 +55,8 @@ class ActiveVertices {
   }
 
   /// Moves a slot toward the attributes `index` of `goal`, by the n-th part of what is left; with
-  /// n = 1 it has them, byte for byte; joints and their weights change only then. Normals keep a
-  /// length of 1. `goal` may be buffer().
+  /// n = 1 it has them, byte for byte. Normals keep a length of 1, of joints the weights are mixed
+  /// (mix_joints). `goal` may be buffer().
   void approach(std::uint32_t slot, const TriangleMesh& goal, std::uint32_t index,
                 std::uint32_t n) {
     if (n == 1) {

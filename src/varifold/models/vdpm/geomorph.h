@@ -23,12 +23,12 @@ namespace varifold {
 /// What the view of the frame before did not see, outside its frustum or turned away, need not
 /// slide: such a split is at its place at once, or with what it requires and is still on its way.
 ///
-/// Positions, texture coordinates and colours move in straight lines toward goals that may move
-/// themselves, normals keep a length of 1: in each frame a vertex covers the n-th part, of those
-/// left, of what is left. A morph that turns round takes as many frames back as it took so far.
-/// So of two steps of which one requires the other, that one is never nearer to its end: steps are
-/// removed in an order that the rule allows. At rest for n frames, everything is where it would be
-/// without morphs, byte for byte.
+/// Positions, in poses too, texture coordinates, colours and the weights of joints move in straight
+/// lines toward goals that may move themselves, normals keep a length of 1: in each frame a vertex
+/// covers the n-th part, of those left, of what is left. A morph that turns round takes as many
+/// frames back as it took so far. So of two steps of which one requires the other, that one is
+/// never nearer to its end: steps are removed in an order that the rule allows. At rest for n
+/// frames, everything is where it would be without morphs, byte for byte.
 ///
 /// 20 bytes for each vertex that moves and 24 for each that changes in a frame, none for others.
 /// Allocates only where there are more of them than ever before.
