@@ -364,5 +364,14 @@ TEST(DiscSupermesh, RealMeshes) {
   }
 }
 
+// Every spoke of the one crosses most rungs of the other.
+TEST(DiscSupermesh, TooManyCrossingsAreRefused) {
+  const auto super = build_supermesh(test::spiral(1'500, 8), test::fan(6'000));
+  ASSERT_FALSE(super);
+  EXPECT_EQ(super.error().kind, ErrorKind::kFailed);
+  EXPECT_NE(super.error().message.find("cross each other too often"), std::string::npos)
+      << super.error().message;
+}
+
 }  // namespace
 }  // namespace varifold

@@ -88,10 +88,9 @@ double gap_of(const Table& places, const Table& others, std::uint32_t shift) {
 
 }  // namespace
 
-DiscAlignment align_discs(const SphereMap& a, const SphereMap& b) {
+double align_discs(const SphereMap& a, const SphereMap& b) {
   RingSampler sampler_a(a), sampler_b(b);
   const Table as_it_stands = sampler_a.at(0), others = sampler_b.at(0);
-  Rotation best_turn = kNoRotation;
   Table places, turned(as_it_stands.size());
   double least = 0;
   std::uint64_t angle = 0;
@@ -101,7 +100,7 @@ DiscAlignment align_discs(const SphereMap& a, const SphereMap& b) {
       const double factor = turn == kNoRotation ? 1 : kTurnedFactor;
       const double sum = factor * gap_of(turned, others, shift);
       if (!places.empty() && sum >= least) continue;
-      least = sum, best_turn = turn, places = turned;
+      least = sum, places = turned;
       angle = shift * (kSteps / kAngles);
     }
   }
@@ -111,10 +110,7 @@ DiscAlignment align_discs(const SphereMap& a, const SphereMap& b) {
       const double sum = gap_of(places, sampler_b.at(next), 0);
       if (sum < least) least = sum, angle = next % kSteps;
     }
-  Rotation back;
-  for (int row = 0; row < 3; ++row)
-    back[row] = {best_turn[0][row], best_turn[1][row], best_turn[2][row]};
-  return {static_cast<double>(angle) / static_cast<double>(kSteps), back};
+  return static_cast<double>(angle) / static_cast<double>(kSteps);
 }
 
 double align_disc_features(const SphereMap& a, const SphereMap& b,

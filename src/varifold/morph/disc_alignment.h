@@ -7,18 +7,12 @@
 
 namespace varifold {
 
-/// How the second of two discs is best turned towards the first one.
-struct DiscAlignment {
-  double turn = 0;               ///< of its half-sphere about the axis: a part of a full turn
-  Rotation shape = kNoRotation;  ///< of itself, about its middle: takes axes to axes
-};
-
-/// The turn of the half-sphere of `b` about its axis, and of its shape, under which places of the
-/// shapes that meet are closest, least squares over the half-sphere and its border; shapes are
-/// compared with their middles together and at one size. They should stand alike; but if one of
+/// The turn of the half-sphere of `b` about its axis, as a part of a full one, under which places
+/// of the shapes that meet are closest, least squares over the half-sphere and its border; shapes
+/// are compared with their middles together and at one size. They should stand alike; but if one of
 /// them turned by a multiple of 90 degrees about axes fits clearly better, it is compared so.
 /// Positions need none for the pole. O(n + 7 million differences), the same result always.
-[[nodiscard]] DiscAlignment align_discs(const SphereMap& a, const SphereMap& b);
+[[nodiscard]] double align_discs(const SphereMap& a, const SphereMap& b);
 
 /// The turn of the half-sphere of `b` about its axis, as a part of a full one, that brings each
 /// pair of features (points of a, of b) closest together, least squares. O(features).

@@ -79,32 +79,29 @@ Result<void> lay_boundaries(DiscPair& pair, const std::vector<FeaturePoint>& fea
   return {};
 }
 
-Result<DiscMeeting> bring_together(DiscPair& pair) {
+Result<double> bring_together(DiscPair& pair) {
   DiscMap &map_a = pair.maps[0], &map_b = pair.maps[1];
-  DiscMeeting meeting;
   if (pair.on_boundary.empty()) {
     const SphereTriangulation a(capped_indices(map_a.disc.surface), capped_points(map_a.points)),
         b(capped_indices(map_b.disc.surface), capped_points(map_b.points));
     const SphereMap in_a{a, map_a.disc.surface.positions}, in_b{b, map_b.disc.surface.positions};
-    const DiscAlignment found = pair.inside.empty()
-                                    ? align_discs(in_a, in_b)
-                                    : DiscAlignment{align_disc_features(in_a, in_b, pair.inside)};
-    meeting.shape = found.shape;
-    if (found.turn != 0)
-      if (auto turned = turn_by(map_b, b.indices, found.turn); !turned)
+    const double turn = pair.inside.empty() ? align_discs(in_a, in_b)
+                                            : align_disc_features(in_a, in_b, pair.inside);
+    if (turn != 0)
+      if (auto turned = turn_by(map_b, b.indices, turn); !turned)
         return fail_in("second mesh", std::move(turned.error()));
   }
-  if (pair.inside.empty()) return meeting;
+  if (pair.inside.empty()) return 0.0;
   CappedDisc moved = capped(map_b);
   std::vector<Pin> pins;
   pins.reserve(pair.inside.size());
   for (const auto& [in_a, in_b] : pair.inside) pins.push_back({in_b, map_a.points[in_a]});
   const MutableSphereMap map{moved.surface.indices, moved.surface.positions, moved.points,
                              &moved.is_fixed};
-  meeting.feature_distance = drag_to_goals(map, pins).farthest;
+  const double farthest = drag_to_goals(map, pins).farthest;
   moved.points.pop_back();
   map_b.points = std::move(moved.points);
-  return meeting;
+  return farthest;
 }
 
 CappedDisc capped(DiscMap map) {

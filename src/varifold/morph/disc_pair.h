@@ -22,14 +22,10 @@ struct DiscPair {
 [[nodiscard]] Result<void> lay_boundaries(DiscPair& pair,
                                           const std::vector<FeaturePoint>& features);
 
-struct DiscMeeting {
-  Rotation shape = kNoRotation;  ///< how the second shape is best turned
-  double feature_distance = 0;   ///< the farthest pair of features, in radians
-};
-
 /// Turns the second map, which must be an embedding as the first one is, about the axis until
 /// features meet, or without any until the shapes are alike; then drags features inside together.
-[[nodiscard]] Result<DiscMeeting> bring_together(DiscPair& pair);
+/// How far the farthest pair of features is apart in the end, in radians.
+[[nodiscard]] Result<double> bring_together(DiscPair& pair);
 
 /// A disc closed by a fan about the south pole below, which stands for its border.
 struct CappedDisc {

@@ -35,14 +35,16 @@ struct Crossings {
   std::vector<std::uint32_t> triangle_in_b;     ///< per vertex of a
   std::vector<std::uint32_t> triangle_in_a;     ///< per vertex of b
   SharedPoints shared;
+  bool is_complete = true;  ///< false: there are too many, and none of this is filled
 };
 
 /// Follows every edge of each over the other by the signs of determinants of given directions,
 /// which are exact, so that both walks see the same crossings. Nothing where a vertex of one lies
 /// exactly on an edge's great circle of the other, as far as that was asked: move one of them a
-/// little and try again. Both must cover the sphere once. Edges between shared points cross
-/// nothing: they are those of the boundaries and fans, no others may join two. O(n + crossings
-/// log), in parallel (0 threads = all); the same for any number.
+/// little and try again. Incomplete where there are more than 32 for each triangle and a million:
+/// needles across needles, for which memory would not do. Both must cover the sphere once. Edges
+/// between shared points cross nothing: they are those of the boundaries and fans, no others may
+/// join two. O(n + crossings log), in parallel (0 threads = all); the same for any number.
 [[nodiscard]] std::optional<Crossings> find_crossings(const SphereTriangulation& a,
                                                       const SphereTriangulation& b, int threads,
                                                       SharedPoints shared = {});

@@ -83,6 +83,7 @@ bool walk(const SphereTriangulation& map, const Way& way, const Visit& visit) {
 struct Walks {
   std::vector<std::uint32_t> first, half_edges;
   bool is_exact = true;
+  bool is_complete = true;  // false: there are too many
 };
 
 // Where vertices of one map lie on the other one.
@@ -94,6 +95,12 @@ struct Places {
     return vertex.empty() ? kNone : vertex[point];
   }
 };
+
+// So many crossings are more than any two maps have that are not mostly needles across each other.
+std::size_t most_crossings(const SphereTriangulation& a, const SphereTriangulation& b) {
+  constexpr std::size_t kAnyway = 1'000'000, kPerTriangle = 32;
+  return kAnyway + kPerTriangle * (a.indices.size() + b.indices.size()) / 3;
+}
 
 Walks walk_all(const SphereTriangulation& edges, const SphereTriangulation& map,
                const Places& places, int threads) {
@@ -107,11 +114,13 @@ Walks walk_all(const SphereTriangulation& edges, const SphereTriangulation& map,
   Walks walks;
   walks.first.resize(edges.edge_count() + 1, 0);
   std::atomic<bool> is_exact = true;
+  std::atomic<std::size_t> total = 0;
+  const std::size_t most = most_crossings(edges, map);
   parallel_for(threads, pieces, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t piece = begin; piece < end; ++piece) {
       const std::size_t last =
           std::min<std::size_t>((piece + 1) * kEdgesAtOnce, edges.edge_count());
-      for (std::size_t e = piece * kEdgesAtOnce; e < last; ++e) {
+      for (std::size_t e = piece * kEdgesAtOnce; e < last && total <= most; ++e) {
         const std::uint32_t h = edges.edge_half[e], from = edges.from(h), to = edges.to(h);
         const std::size_t before = found[piece].size();
         const std::uint32_t shared = places.vertex_of(from);
@@ -123,9 +132,12 @@ Walks walk_all(const SphereTriangulation& edges, const SphereTriangulation& map,
             !walk(map, way, [&](std::uint32_t exit) { found[piece].push_back(exit); }))
           is_exact = false;
         walks.first[e + 1] = static_cast<std::uint32_t>(found[piece].size() - before);
+        total += walks.first[e + 1];
       }
     }
   });
+  walks.is_complete = total <= most;
+  if (!walks.is_complete) return walks;
   for (std::size_t e = 0; e < edges.edge_count(); ++e) walks.first[e + 1] += walks.first[e];
   for (const auto& piece : found)
     walks.half_edges.insert(walks.half_edges.end(), piece.begin(), piece.end());
@@ -173,6 +185,10 @@ std::optional<Crossings> find_crossings(const SphereTriangulation& a, const Sphe
       threads, [&] { result.triangle_in_b = locate_vertices(a, b); },
       [&] { result.triangle_in_a = locate_vertices(b, a); });
   const Walks along_b = walk_all(b, a, {result.triangle_in_a, result.shared.in_a}, threads);
+  if (!along_b.is_complete) {
+    result.is_complete = false;
+    return result;
+  }
   const Walks along_a = walk_all(a, b, {result.triangle_in_b, result.shared.in_b}, threads);
   if (!along_a.is_exact || !along_b.is_exact) return std::nullopt;
   result.first_on_b = along_b.first;

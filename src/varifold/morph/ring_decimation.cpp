@@ -76,16 +76,16 @@ class RingDecimation {
     return quadric;
   }
 
-  [[nodiscard]] Hold hold_of(std::uint32_t vertex) const {
-    return options_.holds.empty() ? Hold::kFree : options_.holds[vertex];
+  [[nodiscard]] bool is_barred(std::uint32_t target) const {
+    return options_.bars_targets && options_.holds[target] == Hold::kAlways;
   }
 
   void push_best(std::uint32_t vertex) {
     ++stamps_[vertex];
-    if (hold_of(vertex) > most_) return;
+    if (!options_.holds.empty() && options_.holds[vertex] > most_) return;
     Candidate best{0, vertex, kNone, stamps_[vertex]};
     for (const std::uint32_t target : mesh_.ring(vertex)) {
-      if (!options_.onto_held && hold_of(target) == Hold::kAlways) continue;
+      if (is_barred(target)) continue;
       const Vec3 way = positions_[target] - positions_[vertex];
       const auto valence =
           static_cast<float>(mesh_.ring(vertex).size() + mesh_.ring(target).size()) - 4;
@@ -136,15 +136,6 @@ class RingDecimation {
 CollapseRecord decimate(RingMesh& mesh, std::span<const Vec3> positions,
                         const DecimationOptions& options) {
   return RingDecimation(mesh, positions, options).run();
-}
-
-CollapseRecord decimate_to_cone(RingMesh& mesh, std::span<const Vec3> positions,
-                                const std::vector<bool>& is_fixed) {
-  std::vector<Hold> holds(is_fixed.size(), Hold::kFree);
-  std::uint32_t least = 1;
-  for (std::size_t v = 0; v < is_fixed.size(); ++v)
-    if (is_fixed[v]) holds[v] = Hold::kAlways, ++least;
-  return decimate(mesh, positions, {.least = least, .holds = holds, .onto_held = false});
 }
 
 }  // namespace varifold

@@ -20,8 +20,12 @@ enum class Hold : std::uint8_t {
 struct DecimationOptions {
   std::uint32_t least = 4;      ///< vertices to leave, 4 or more
   std::span<const Hold> holds;  ///< empty, or one for each vertex
-  std::uint32_t late = 4;       ///< all free ones go first until so many vertices are left
-  bool onto_held = true;        ///< whether others may go onto those that are always held
+  /// Those that are held always take none in, either. Of a disc that a fan about one more vertex
+  /// closes, let them be the boundary and that vertex, and no other edge join two of these. Then
+  /// this gets down to one vertex inside: there is always an edge of two others to collapse, any,
+  /// or one within the innermost triangle around that is none of the mesh.
+  bool bars_targets = false;
+  std::uint32_t late = 4;  ///< all free ones go first until so many vertices are left
   /// Directions of the vertices that a positive triangulation of the sphere is to remain with;
   /// empty: none.
   std::span<const SpherePoint> points;
@@ -41,13 +45,5 @@ struct DecimationOptions {
                                                             std::span<const Vec3> positions) {
   return decimate(mesh, positions);
 }
-
-/// The same for a disc that a fan about one more vertex closes: `is_fixed` says for every vertex
-/// whether it is of the boundary or that one, and these stay, until one other is left.
-///
-/// No edge inside may join two of the boundary. Then there is always an edge of two others that may
-/// be collapsed: of any, or of those within the innermost triangle around that is none of the mesh.
-[[nodiscard]] CollapseRecord decimate_to_cone(RingMesh& mesh, std::span<const Vec3> positions,
-                                              const std::vector<bool>& is_fixed);
 
 }  // namespace varifold

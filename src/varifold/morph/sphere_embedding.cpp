@@ -63,8 +63,8 @@ class SphereEmbedding {
   }
 
   Result<std::vector<SpherePoint>> run() {
-    const CollapseRecord record = fixed_ > 0 ? decimate_to_cone(mesh_, positions_, is_fixed_)
-                                             : decimate_to_tetrahedron(mesh_, positions_);
+    const CollapseRecord record =
+        fixed_ > 0 ? decimate_to_cone() : decimate_to_tetrahedron(mesh_, positions_);
     if (mesh_.vertex_count() != (fixed_ > 0 ? fixed_ + 1 : 4))
       return fail(ErrorKind::kFailed, "the surface does not collapse to a tetrahedron or a cone");
     fixed_ > 0 ? place_tip() : place_base();
@@ -88,6 +88,16 @@ class SphereEmbedding {
   }
 
  private:
+  CollapseRecord decimate_to_cone() {
+    std::vector<Hold> holds(is_fixed_.size(), Hold::kFree);
+    for (std::size_t v = 0; v < holds.size(); ++v)
+      if (is_fixed_[v]) holds[v] = Hold::kAlways;
+    DecimationOptions options;
+    options.least = fixed_ + 1;
+    options.holds = holds;
+    options.bars_targets = true;
+    return decimate(mesh_, positions_, options);
+  }
   [[nodiscard]] bool proceed(float done) const {
     return !options_.progress || options_.progress(done);
   }

@@ -7,7 +7,6 @@
 #include <varifold/morph/disc_pair.h>
 #include <varifold/morph/feature_warp.h>
 #include <varifold/morph/overlay_mesh.h>
-
 #include <varifold/morph/overlay_reduction.h>
 #include <varifold/morph/sphere_embedding.h>
 #include <varifold/morph/sphere_surface.h>
@@ -94,37 +93,12 @@ class SupermeshBuilder {
 
   [[nodiscard]] bool of_discs() const { return surfaces_[0].is_disc(); }
 
-  Result<void> lay_discs() {
+  Result<void> embed_discs() {
     for (std::size_t i = 0; i < 2; ++i)
       discs_.maps[i].disc = to_disc_mesh(*meshes_[i], surfaces_[i]);
-    return lay_boundaries(discs_, features_);
-  }
-
-  Result<void> embed() {
-    if (auto laid = of_discs() ? embed_discs() : embed_spheres(); !laid) return laid;
-    result_.report.embed_seconds = watch_.lap();
-    return {};
-  }
-
-  Result<void> embed_spheres() {
-    CorrespondenceOptions correspondence;
-    correspondence.features = features_;
-    correspondence.threads = options_.threads;
-    correspondence.progress = [&](float done) {
-      return report(options_.progress, "embed", 0.6f * done);
-    };
-    auto found = find_correspondence({view_of(0), view_of(1)}, correspondence);
-    if (!found) return tl::unexpected(std::move(found.error()));
-    for (int i = 0; i < 2; ++i) points_[i] = std::move(found->points[i]);
-    result_.report.feature_distance = found->feature_distance;
-    result_.report.distortion = found->distortion;
-    return {};
-  }
-
-  Result<void> embed_discs() {
-    if (auto laid = lay_discs(); !laid) return laid;
+    if (auto laid = lay_boundaries(discs_, features_); !laid) return laid;
     Result<std::vector<SpherePoint>> found[2];
-    // The callback belongs to the caller's thread, which maps the first surface.
+    // The callback belongs to the caller's thread, which maps the first disc.
     std::atomic<bool> is_cancelled = false;
     SphereEmbeddingOptions quiet, loud;
     quiet.progress = [&](float) { return !is_cancelled; };
@@ -132,26 +106,25 @@ class SupermeshBuilder {
       if (!report(options_.progress, "embed", 0.5f * done)) is_cancelled = true;
       return !is_cancelled;
     };
-    const auto embed_one = [&](int i, const SphereEmbeddingOptions& embedding) {
-      const DiscMap& map = discs_.maps[static_cast<std::size_t>(i)];
-      found[i] = embed_on_half_sphere(map.disc.surface, map.points, embedding);
+    const auto embed_one = [&](std::size_t i, const SphereEmbeddingOptions& embedding) {
+      found[i] =
+          embed_on_half_sphere(discs_.maps[i].disc.surface, discs_.maps[i].points, embedding);
     };
     parallel_both(
         options_.threads, [&] { embed_one(0, loud); }, [&] { embed_one(1, quiet); });
-    for (int i = 0; i < 2; ++i) {
+    for (std::size_t i = 0; i < 2; ++i) {
       if (!found[i])
         return fail_in(i == 0 ? "first mesh" : "second mesh", std::move(found[i].error()));
-      points_[i] = std::move(*found[i]);
+      discs_.maps[i].points = std::move(*found[i]);
     }
-    return align_discs();
+    return join_discs();
   }
 
   // Both are closed below after that.
-  Result<void> align_discs() {
-    for (std::size_t i = 0; i < 2; ++i) discs_.maps[i].points = std::move(points_[i]);
+  Result<void> join_discs() {
     const auto meeting = bring_together(discs_);
     if (!meeting) return tl::unexpected(meeting.error());
-    result_.report.feature_distance = meeting->feature_distance;
+    result_.report.feature_distance = *meeting;
     shared_ = merge_boundaries(discs_.maps[0], discs_.maps[1]);
     for (std::size_t i = 0; i < 2; ++i) {
       CappedDisc disc = capped(std::move(discs_.maps[i]));
@@ -161,6 +134,27 @@ class SupermeshBuilder {
       points_[i] = std::move(disc.points);
       is_fixed_[i] = std::move(disc.is_fixed);
     }
+    result_.report.embed_seconds = watch_.lap();
+    return {};
+  }
+
+  Result<void> embed() {
+    if (of_discs()) return embed_discs();
+    CorrespondenceOptions correspondence;
+    correspondence.features = features_;
+    correspondence.threads = options_.threads;
+    correspondence.progress = [&](float done) {
+      return report(options_.progress, "embed", 0.6f * done);
+    };
+    const std::array<SurfaceView, 2> views{
+        SurfaceView{surfaces_[0].indices, surfaces_[0].positions},
+        SurfaceView{surfaces_[1].indices, surfaces_[1].positions}};
+    auto found = find_correspondence(views, correspondence);
+    if (!found) return tl::unexpected(std::move(found.error()));
+    for (int i = 0; i < 2; ++i) points_[i] = std::move(found->points[i]);
+    result_.report.feature_distance = found->feature_distance;
+    result_.report.distortion = found->distortion;
+    result_.report.embed_seconds = watch_.lap();
     return {};
   }
 
@@ -175,6 +169,9 @@ class SupermeshBuilder {
         jitter(map_of(1), nudge, static_cast<std::uint64_t>(attempt) + 1);
         continue;
       }
+      if (!crossings->is_complete)
+        return fail(ErrorKind::kFailed,
+                    "the edges of both meshes cross each other too often: triangles are too thin");
       const OverlayCells cells = trace_cells(a, b, *crossings);
       overlay_ = make_overlay_mesh({*meshes_[0], a, surfaces_[0].triangles},
                                    {*meshes_[1], b, surfaces_[1].triangles}, *crossings, cells);
@@ -221,8 +218,6 @@ class SupermeshBuilder {
     for (Vec3& p : pose.positions) p = similarity(p);
     for (Vec3& n : pose.normals) n = Vec3(rotated(similarity.turn, DVec3(n)));
   }
-
-  SurfaceView view_of(int i) const { return {surfaces_[i].indices, surfaces_[i].positions}; }
 
   MutableSphereMap map_of(int i) {
     return {surfaces_[i].indices, surfaces_[i].positions, points_[i],
