@@ -111,16 +111,19 @@ float longest_squared(const Vec3& a, const Vec3& b, const Vec3& c) {
   return std::max({glm::dot(a, a), glm::dot(b, b), glm::dot(c, c)});
 }
 
-// Whether a face that disagrees with the input at one corner does so at the two others as well.
-// Where the input has no normal, nothing can be said.
+// Whether a face disagrees with the input at all of its corners. Those where the input has no
+// normal, since all faces there have no area, have nothing to say.
 template <class Places>
-bool opposes_input(const Places& places, const Vec3& normal, std::uint32_t m, std::uint32_t n) {
-  if (normal == Vec3(0)) return false;
+bool opposes_input(const Places& places, const Vec3& normal, const Vec3& at_apex, std::uint32_t m,
+                   std::uint32_t n) {
+  if (glm::dot(normal, at_apex) > 0 || normal == Vec3(0)) return false;
+  bool is_judged = at_apex != Vec3(0);
   for (const std::uint32_t corner : {m, n}) {
     const Vec3 input_normal = unpack_normal(places.normal(corner));
-    if (input_normal == Vec3(0) || glm::dot(normal, input_normal) > 0) return false;
+    if (glm::dot(normal, input_normal) > 0) return false;
+    is_judged = is_judged || input_normal != Vec3(0);
   }
-  return true;
+  return is_judged;
 }
 
 // Whether a face would be more than the greatest turn away from the normal it was given.
@@ -164,9 +167,7 @@ Refusal test_faces_at(WorkingSurface& surface, const ApexMove& move, const Legal
       return Refusal::kNormal;
     // Steps that are each small may turn a face right over, so it must agree with the input's
     // normal at one of its corners at least.
-    if (!(glm::dot(new_normal, input_normal) > 0) && input_normal != Vec3(0) &&
-        opposes_input(places, new_normal, m, n))
-      return Refusal::kNormal;
+    if (opposes_input(places, new_normal, input_normal, m, n)) return Refusal::kNormal;
     if (Places::kIsRest && turns_from_reference(surface, ring[i].face, new_normal, options))
       return Refusal::kNormal;
     if (new_square == 0 && old_square == 0) continue;  // it had no area and has none
