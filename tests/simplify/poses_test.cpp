@@ -8,6 +8,7 @@
 #include <varifold/measure/closest_point.h>
 #include <varifold/measure/surface_distance.h>
 #include <varifold/mesh/generators.h>
+#include <varifold/mesh/validation.h>
 #include <varifold/mesh/weld.h>
 #include <varifold/simplify/simplify.h>
 #include <algorithm>
@@ -39,6 +40,34 @@ TEST(Poses, LevelsAreSoundInEveryShape) {
         test::expect_sound_level(alone, level);
     }
   }
+}
+
+// At rest, and in another pose, all faces of some part have no area: they say nothing of which side
+// is outside, but what is around them does.
+TEST(Poses, SquashedPartsDoNotTurnOver) {
+  for (const float depth : {0.3f, 0.7f})
+    for (const bool is_tilted : {false, true}) {
+      TriangleMesh mesh = test::icosphere(5'000);
+      mesh.normals.clear();
+      const TriangleMesh round = mesh;
+      mesh.poses.resize(2);
+      for (Pose& pose : mesh.poses) pose.positions = mesh.positions;
+      for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+        const Vec3 p = round.positions[v];
+        // To a point, or onto a line.
+        if (p.z > depth) mesh.positions[v] = Vec3(is_tilted ? p.x : 0.1f, 0.05f, 0.5f * depth);
+        if (p.x < -depth) mesh.poses[1].positions[v] = Vec3(-0.4f, 0, is_tilted ? p.z : 0.0f);
+      }
+      const Simplification result = simplified(mesh);
+      const auto& sequence = result.detailed.sequence;
+      for (std::size_t shape = 0; shape < 3; ++shape) {
+        SCOPED_TRACE(shape);
+        const DetailedMesh alone = test::in_shape(result.detailed, shape);
+        const TriangleMesh full = mesh_at_level(alone, sequence.step_count());
+        for (const std::uint32_t level : test::spread_levels(alone.sequence, 20))
+          ASSERT_EQ(count_flipped(mesh_at_level(alone, level), full), 0u) << "level " << level;
+      }
+    }
 }
 
 TEST(Poses, AreCarriedToTheLevels) {

@@ -81,7 +81,7 @@ TEST(SequenceStrips, StayShortAtEveryLevel) {
       strips.split();
       const std::uint32_t triangles = detailed.sequence.triangles[strips.level()];
       if (triangles <= 500) continue;
-      ASSERT_LE(static_cast<double>(slots_with_restarts(strips)) / triangles, 1.86)
+      ASSERT_LE(static_cast<double>(slots_with_restarts(strips)) / triangles, 1.85)
           << "level " << strips.level();
     }
   }
@@ -154,7 +154,7 @@ TEST(SequenceStrips, RealMeshesStayShort) {
       strips.split();
       const std::uint32_t triangles = detailed.sequence.triangles[strips.level()];
       if (triangles <= 500 || strips.level() % 16 != 0) continue;
-      ASSERT_LE(static_cast<double>(slots_with_restarts(strips)) / triangles, 1.86)
+      ASSERT_LE(static_cast<double>(slots_with_restarts(strips)) / triangles, 1.85)
           << name << " level " << strips.level();
     }
   }

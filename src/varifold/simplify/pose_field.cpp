@@ -1,7 +1,9 @@
 #include <varifold/simplify/pose_field.h>
 
 #include <varifold/base/parallel.h>
+#include <varifold/simplify/borrowed_normals.h>
 #include <varifold/simplify/packed_normal.h>
+#include <cmath>
 
 namespace varifold {
 
@@ -22,24 +24,56 @@ std::uint32_t normal_at(const WorkingSurface& surface, std::uint32_t point,
   return pack_normal(sum);
 }
 
+// About the middle of the box, such that taking it off positions rounds nothing: an axis that 0 is
+// near to stays as it is, on others all numbers are large, and few bits are taken off.
+DVec3 exact_center(const Box& box) {
+  DVec3 center(0);
+  for (int axis = 0; axis < 3 && !box.empty(); ++axis) {
+    const double low = box.lower[axis], high = box.upper[axis], middle = 0.5 * (low + high);
+    if (std::abs(middle) <= high - low) continue;
+    const double step = std::exp2(std::floor(std::log2(std::abs(middle))) - 16);
+    center[axis] = std::round(middle / step) * step;
+  }
+  return center;
+}
+
 }  // namespace
 
-PoseField::PoseField(const WorkingSurface& surface, std::span<const std::span<const Vec3>> poses,
-                     int threads)
+PoseField::PoseField(const WorkingSurface& surface, std::span<const Vec3> rest,
+                     std::span<const std::span<const Vec3>> poses, int threads)
     : places_(surface.point_count() * poses.size()),
+      exact_(poses.empty() ? 0 : surface.point_count() * (poses.size() + 1)),
       count_(static_cast<std::uint32_t>(poses.size())) {
+  for (std::uint32_t i = 0; i < count_; ++i)
+    fill(surface, poses[i], {surface.center, surface.scale}, {places_.data() + i, count_}, threads);
+  for (std::uint32_t i = 0; i <= count_ && count_ > 0; ++i) {
+    const std::span<const Vec3> shape = i == 0 ? rest : poses[i - 1];
+    Box box;
+    for (const std::uint32_t vertex : surface.first_vertex_of_point) box.add(shape[vertex]);
+    const double diagonal = box.empty() ? 0 : glm::length(DVec3(box.upper) - DVec3(box.lower));
+    const double scale = diagonal > 0 ? std::exp2(-std::round(std::log2(diagonal))) : 1;
+    fill(surface, shape, {exact_center(box), scale}, {exact_.data() + i, count_ + 1}, threads);
+  }
+}
+
+void PoseField::fill(const WorkingSurface& surface, std::span<const Vec3> shape,
+                     const Placement& placement, const Column& column, int threads) {
   const auto for_each_point = [&](const auto& body) {
     parallel_for(threads, surface.point_count(), 4096, [&](std::size_t begin, std::size_t end) {
       for (auto point = static_cast<std::uint32_t>(begin); point < end; ++point)
-        for (std::uint32_t i = 0; i < count_; ++i) body(point, i, places_[point * count_ + i]);
+        body(point, column.first[point * column.stride]);
     });
   };
-  for_each_point([&](std::uint32_t point, std::uint32_t number, PosePlace& place) {
-    const Vec3& p = poses[number][surface.first_vertex_of_point[point]];
-    place.position = Vec3((DVec3(p) - surface.center) * surface.scale);
+  for_each_point([&](std::uint32_t point, PosePlace& place) {
+    const DVec3 p(shape[surface.first_vertex_of_point[point]]);
+    place.position = Vec3((p - placement.center) * placement.scale);
   });
-  for_each_point([&](std::uint32_t point, std::uint32_t number, PosePlace& place) {
-    place.normal = normal_at(surface, point, pose(number));
+  const PosePlaces places{column.first, column.stride};
+  for_each_point([&](std::uint32_t point, PosePlace& place) {
+    place.normal = normal_at(surface, point, places);
+  });
+  borrow_normals(surface, [&](std::uint32_t point) -> std::uint32_t& {
+    return column.first[point * column.stride].normal;
   });
 }
 
@@ -64,8 +98,8 @@ RingErrors PoseField::mean_errors(WorkingSurface& surface, std::uint32_t point,
 
 Refusal PoseField::test(WorkingSurface& surface, std::uint32_t from, std::uint32_t onto,
                         const LegalityOptions& options) const {
-  for (std::uint32_t number = 0; number < count_; ++number) {
-    const PosePlaces places = pose(number);
+  for (std::uint32_t shape = 0; shape <= count_ && count_ > 0; ++shape) {
+    const PosePlaces places{exact_.data() + shape, count_ + 1};
     const ApexMove move{from, onto, places.position(onto), places.normal(onto)};
     if (const Refusal refusal = test_faces(surface, move, options, places);
         refusal != Refusal::kLegal)

@@ -34,17 +34,19 @@ class PoseField {
  public:
   /// None.
   PoseField() = default;
-  /// Each pose has a place for every vertex of the mesh that the surface was made of; normals are
-  /// those of the faces around each point. O(points * poses).
-  PoseField(const WorkingSurface& surface, std::span<const std::span<const Vec3>> poses,
-            int threads);
+  /// Each shape, that at rest and the poses, has a place for every vertex of the mesh that the
+  /// surface was made of; normals are those of the faces around each point. O(points * poses).
+  PoseField(const WorkingSurface& surface, std::span<const Vec3> rest,
+            std::span<const std::span<const Vec3>> poses, int threads);
 
   [[nodiscard]] bool empty() const { return count_ == 0; }
   [[nodiscard]] std::uint32_t pose_count() const { return count_; }
   [[nodiscard]] PosePlaces pose(std::uint32_t number) const {
     return {places_.data() + number, count_};
   }
-  [[nodiscard]] std::size_t bytes() const { return places_.size() * sizeof(PosePlace); }
+  [[nodiscard]] std::size_t bytes() const {
+    return (places_.size() + exact_.size()) * sizeof(PosePlace);
+  }
 
   /// The mean over all poses, that at rest among them; valid until the scratch is used again.
   /// O(ring * poses).
@@ -52,13 +54,28 @@ class PoseField {
                                        const QuadricOptions& options, const RingErrors& at_rest,
                                        PoseScratch& scratch) const;
 
-  /// The part of test_collapse() that is about the shape of faces, in these poses.
-  /// O(ring * poses).
+  /// The part of test_collapse() that is about the shape of faces, in these poses, and at rest once
+  /// more: with places that were not rounded. What is large in one shape of a morph may be as small
+  /// as rounding in another, where it could be turned over unnoticed. O(ring * poses).
   [[nodiscard]] Refusal test(WorkingSurface& surface, std::uint32_t from, std::uint32_t onto,
                              const LegalityOptions& options) const;
 
  private:
+  // What moves places near 0, and to about one unit.
+  struct Placement {
+    DVec3 center;
+    double scale;
+  };
+  // Where the places of one shape are written.
+  struct Column {
+    PosePlace* first;
+    std::size_t stride;
+  };
+  static void fill(const WorkingSurface& surface, std::span<const Vec3> shape,
+                   const Placement& placement, const Column& column, int threads);
+
   LargeVector<PosePlace> places_;
+  LargeVector<PosePlace> exact_;  // of all shapes, that at rest first; nothing was rounded
   std::uint32_t count_ = 0;
 };
 

@@ -108,7 +108,8 @@ Result<Simplification> simplify(const TriangleMesh& mesh, const SimplifyOptions&
   CollapserOptions collapser_options;
   collapser_options.legality = options.legality;
   Collapser collapser(surface, &attributes, collapser_options);
-  const PoseField poses(surface, ordering_shapes(mesh, options.poses), options.threads);
+  const PoseField poses(surface, mesh.positions, ordering_shapes(mesh, options.poses),
+                        options.threads);
   if (!poses.empty()) collapser.poses = &poses;
   PlacementLog placement;
   const CollapseLog log =

@@ -2,11 +2,11 @@
 
 #include <varifold/base/parallel.h>
 #include <varifold/mesh/weld.h>
+#include <varifold/simplify/borrowed_normals.h>
 #include <varifold/simplify/classify.h>
 #include <varifold/simplify/morton.h>
 #include <varifold/simplify/packed_normal.h>
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 #include <utility>
 
@@ -30,19 +30,6 @@ void drop_duplicates(std::vector<LinkEdge>& edges) {
   edges.erase(std::unique(edges.begin(), edges.end(), same), edges.end());
 }
 
-// About the middle of the box, such that taking it off positions rounds nothing: an axis that 0 is
-// near to stays as it is, on others all numbers are large, and few bits are taken off.
-DVec3 exact_center(const Box& box) {
-  DVec3 center(0);
-  for (int axis = 0; axis < 3 && !box.empty(); ++axis) {
-    const double low = box.lower[axis], high = box.upper[axis], middle = 0.5 * (low + high);
-    if (std::abs(middle) <= high - low) continue;
-    const double step = std::exp2(std::floor(std::log2(std::abs(middle))) - 16);
-    center[axis] = std::round(middle / step) * step;
-  }
-  return center;
-}
-
 }  // namespace
 
 // Number the position classes along a Morton curve and scale them to a unit box.
@@ -60,9 +47,9 @@ void SurfaceBuilder::make_points() {
     first_vertex[weld.class_of[v]] = v;
     class_position[weld.class_of[v]] = mesh_.positions[v];
   }
-  surface_.center = exact_center(box);
+  surface_.center = box.empty() ? DVec3(0) : 0.5 * (DVec3(box.lower) + DVec3(box.upper));
   const double diagonal = box.empty() ? 0 : glm::length(DVec3(box.upper) - DVec3(box.lower));
-  if (diagonal > 0) surface_.scale = std::exp2(-std::round(std::log2(diagonal)));
+  surface_.scale = diagonal > 0 ? 1 / diagonal : 1;
 
   std::vector<std::uint32_t> used_classes;
   used_classes.reserve(weld.class_count);
@@ -219,6 +206,8 @@ void SurfaceBuilder::make_rings() {
                  order_rings(static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end),
                              true);
                });
+  borrow_normals(surface_,
+                 [&](std::uint32_t p) -> std::uint32_t& { return surface_.points[p].normal; });
   face_points_ = {};
   degree_ = {};
 }

@@ -108,8 +108,7 @@ TEST_P(StepBoundsOf, SpacesHoldTheDeviationOfEverySampleThatTheStepMoves) {
         ears += move.is_ear;
         ++moves;
         if (!move.is_ear) {
-          // Nearest points on needles are found in floats.
-          ASSERT_NEAR(glm::length(DVec3(move.residual)), least, 1.5 * slack);
+          ASSERT_NEAR(glm::length(DVec3(move.residual)), least, slack);
           // Of several nearest points any may be taken: it has to be a point of them.
           double off = std::numeric_limits<double>::infinity();
           for (const std::array<Vec3, 3>& triangle : star[move.step].after)

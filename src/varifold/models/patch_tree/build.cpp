@@ -235,12 +235,13 @@ PatchNeighbors Builder::neighbors_of(const LevelBlocks& blocks) const {
 }
 
 bool Builder::make_levels_of_detail() {
-  const PoseField poses(surface_, shapes_, options_.threads);
+  const PoseField poses(surface_, mesh_.positions, shapes_, options_.threads);
   std::optional<ShapeTable> shapes;
   if (!poses.empty()) shapes.emplace(surface_, poses);
   const auto ordering = ordering_shapes(mesh_, options_.poses);
   const bool all_order = ordering.size() == shapes_.size();
-  const PoseField some = all_order ? PoseField() : PoseField(surface_, ordering, options_.threads);
+  const PoseField some =
+      all_order ? PoseField() : PoseField(surface_, mesh_.positions, ordering, options_.threads);
   LevelHalving halving(surface_, attributes_,
                        {options_.threads, options_.progress,
                         ordering.empty() ? nullptr : (all_order ? &poses : &some)});
