@@ -35,7 +35,10 @@ std::uint32_t least(const FrameStripsData& data, const Ask& ask) {
 
 FrameStrips::FrameStrips(FrameStripsData data) : data_(std::move(data)) {
   data_.mesh.indices = {};
-  if (may_have_seams(data_.mesh)) point_of_ = weld_points(data_.mesh).class_of;
+  if (!may_have_seams(data_.mesh)) return;
+  // Without any seam every vertex is a point of its own, and nothing need be looked up.
+  WeldMap weld = weld_points(data_.mesh);
+  if (weld.class_count < data_.mesh.vertex_count()) point_of_ = std::move(weld.class_of);
 }
 
 std::uint32_t FrameStrips::frame_for(std::span<const float> weights) const {
